@@ -1,0 +1,75 @@
+# make book   build the book into build/_build/html
+# make test   check everything: style, package, notebooks, built pages
+# make lab    open the notebooks in JupyterLab
+# make clean  remove what these made
+#
+# The only need is Python 3.11 or newer; to choose one: make book PYTHON=python3.12
+
+PYTHON ?= python3
+HERE := $(shell cd "$$(dirname "$(strip $(MAKEFILE_LIST))")" && pwd -P)
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+PYTEST := $(BIN)/python -m pytest --quiet -n 2 --dist loadfile
+
+.PHONY: book test lab clean env system
+.DEFAULT_GOAL := book
+
+ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
+
+book test lab clean env system:
+	@$(MAKE) --no-print-directory -C "$(HERE)" $@
+
+else
+
+# An environment that was made elsewhere, then copied or moved, is made again.
+ifneq ($(shell cat .venv/.made-in 2>/dev/null),$(HERE))
+$(shell rm -f .venv/.book .venv/.lab)
+endif
+
+env: .venv/.book
+
+.venv/.book: pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "abstransfer needs Python 3.11 or newer. Install it, then say for" \
+	       "instance: make PYTHON=python3.12"; exit 1; }
+	test "$$(cat .venv/.made-in 2>/dev/null)" = "$(HERE)" || $(PYTHON) -m venv --clear .venv
+	$(PIP) --editable ".[test]"
+	@echo "$(HERE)" > .venv/.made-in
+	@touch $@
+
+.venv/.lab: .venv/.book
+	$(PIP) --editable ".[test,lab]"
+	@touch $@
+
+# From an empty folder: a second build would not repeat the warnings of the first.
+book: .venv/.book
+	rm -rf build/_build
+	$(BIN)/jupyter-book build book --config _config.yml --path-output build -W -n --keep-going
+	@echo
+	@echo "The book is built. Open this file in a browser:"
+	@echo "  $(HERE)/build/_build/html/index.html"
+
+test: .venv/.book system
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(MAKE) --no-print-directory book
+	$(PYTEST)
+	@if ls book/*.ipynb >/dev/null 2>&1; then set -x; \
+	  $(PYTEST) --nbval --nbval-current-env --nbval-cell-timeout=120 book/*.ipynb; fi
+
+# On a build server the browser and node come from the system's packages and no
+# test is skipped; elsewhere the tests that need them say how to get them.
+system:
+ifdef CI
+	@if ! { command -v chromium && command -v node; } >/dev/null; then \
+	  apt-get update -qq && \
+	  apt-get install -y -qq --no-install-recommends chromium nodejs fonts-dejavu; fi
+endif
+
+lab: .venv/.lab
+	$(BIN)/jupyter-lab book
+
+clean:
+	rm -rf .venv build dist .pytest_cache .ruff_cache .hypothesis
+
+endif

@@ -1,0 +1,118 @@
+"""
+Whether this machine is ready for the book, and what to do if it is not.
+
+Only the standard library is used: it answers where nothing else is installed.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from importlib import metadata
+from pathlib import Path
+from typing import NamedTuple
+
+PYTHON = "3.11"
+NODE = "18"
+BROWSERS = (
+    *("chromium", "chromium-browser", "google-chrome", "chrome", "msedge"),
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    r"C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe",
+)
+INSTALL = 'pip install -c constraints.txt -e ".[test]"'
+
+
+class Check(NamedTuple):
+    """One thing that was looked at."""
+
+    name: str
+    ok: bool
+    found: str  # a version, a path, or "nothing"
+    remedy: str  # what to do if not ok; else ""
+
+
+def diagnose() -> list[Check]:
+    """Look at everything the book and its tests need; one record for each."""
+    tools = (check_kernel(), check_cache(), check_browser(), check_node())
+    return [check_python(), *check_packages(), *tools]
+
+
+def check_python() -> Check:
+    """Say whether this Python is new enough."""
+    found = ".".join(map(str, sys.version_info[:3]))
+    ok = _release(found) >= _release(PYTHON)
+    return _check("python", ok, found, f"install Python {PYTHON} or newer")
+
+
+def check_packages(extras: tuple[str, ...] = ("book",)) -> list[Check]:
+    """Compare installed packages with what the package and `extras` ask for."""
+    try:
+        lines = metadata.requires("abstransfer") or []
+    except metadata.PackageNotFoundError:
+        return [_check("abstransfer", False, "nothing", INSTALL)]
+    asked = (re.split(r"\s*;\s*", line, maxsplit=1) for line in lines)
+    wanted = [f"extra == '{extra}'" for extra in extras]
+    return [check_package(spec) for spec, *of in asked if not of or of[0] in wanted]
+
+
+def check_package(spec: str) -> Check:
+    """Check one requirement, as in ``numpy>=2.0``."""
+    name = re.match(r"[\w.-]+", spec)[0]
+    try:
+        version = metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return _check(name, False, "nothing", INSTALL)
+    bounds = re.findall(r"(>=|<)\s*([\d.]+)", spec)
+    ok = all((_release(version) >= _release(b)) == (op == ">=") for op, b in bounds)
+    return _check(name, ok, version, f"needs {spec}: {INSTALL}")
+
+
+def check_kernel() -> Check:
+    """Say whether notebooks find a kernel that runs this Python."""
+    place = Path(sys.prefix, "share", "jupyter", "kernels", "python3", "kernel.json")
+    found = str(place) if place.is_file() else "nothing"
+    return _check("jupyter kernel", place.is_file(), found, INSTALL)
+
+
+def check_cache() -> Check:
+    """Say whether compiled loops can be kept; else they compile at each start."""
+    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parent)
+    remedy = "set NUMBA_CACHE_DIR to an existing folder you may write to"
+    ok = True
+    try:
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError:
+        ok = False
+    return _check("compiled code", ok, str(folder), remedy)
+
+
+def check_browser() -> Check:
+    """Say whether the browser tests can run; to read, any browser will do."""
+    found = next(filter(None, map(shutil.which, BROWSERS)), "nothing")
+    remedy = "for the browser tests install Chromium (Debian: apt-get install chromium)"
+    return _check("browser", found != "nothing", found, remedy)
+
+
+def check_node() -> Check:
+    """Say whether the tests of scripts can run; to read, it is not needed."""
+    remedy = f"for the script tests install Node.js {NODE} or newer (Debian: nodejs)"
+    if not (node := shutil.which("node")):
+        return _check("node", False, "nothing", remedy)
+    answer = subprocess.run([node, "--version"], capture_output=True, text=True)
+    found = answer.stdout.strip().lstrip("v")
+    return _check("node", _release(found) >= _release(NODE), found, remedy)
+
+
+def _release(version: str) -> tuple[int, ...]:
+    """Return the numbers of a version, as in (1, 0, 4, 0) for 1.0.4.post1."""
+    numbers = re.match(r"(?:\d+(?:\.\d+)*)?", version)[0].split(".")
+    return tuple(int(n or 0) for n in [*numbers, "0", "0", "0", "0"][:4])
+
+
+def _check(name: str, ok: bool, found: str, remedy: str) -> Check:
+    return Check(name, ok, found, "" if ok else remedy)
