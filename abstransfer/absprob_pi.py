@@ -1,0 +1,223 @@
+"""
+The deduced abstract policy: climbing the value of an abstract policy.
+
+AbsProb-PI looks for an abstract policy (Z, A) with a high value from a start
+distribution over states (S,).  On the union MDP of several tasks it is
+AbsProb-PI-multiple.  Page 6 of the book teaches this module.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .mdp import MDP, check_policy
+from .policies import uniform_policy
+from .solvers import action_values, factorize, transition_matrix
+
+
+class Climb(NamedTuple):
+    """An abstract policy that was climbed to, and the values on the way."""
+
+    policy: np.ndarray  # (Z, A)
+    history: np.ndarray  # (iterations + 1,) value before the first step, after each
+
+
+def abstract_gradient(
+    mdp: MDP,
+    abstract_policy: np.ndarray,
+    rho: np.ndarray,
+    start: np.ndarray | None = None,
+) -> tuple[float, np.ndarray, np.ndarray]:
+    """
+    Return the value of an abstract policy, its gradient, and visits.
+
+    Two solves with the same matrix: V = (I - gamma P)^-1 R, and the discounted
+    number of visits d^T = start^T (I - gamma P)^-1.  An abstract state gathers
+    G(z, a) = gamma * sum over its states s of d(s) Q(s, a).
+
+    Parameters
+    ----------
+    mdp : MDP
+    abstract_policy : ndarray of float, shape (Z, A)
+    rho : ndarray of int, shape (S,)
+    start : ndarray of float, shape (S,), optional
+        Probability of starting in each state (the paper's beta); uniform over
+        all states by default.
+
+    Returns
+    -------
+    value : float
+        Expected discounted reward from `start`.
+    gradient : ndarray of float, shape (Z, A)
+        Derivative of `value` by each probability, the others held fixed.
+    visits : ndarray of float, shape (Z,)
+        Discounted steps spent in each abstract state, terminal states excluded.
+
+    References
+    ----------
+    da Silva, Pereira & Costa (2012); Freire & Costa (2015), "Deduced Policy".
+
+    Examples
+    --------
+    One step to the goal: V = -1 + 0.5 p * 0 + 0.5 (1 - p) V.
+
+    >>> bump = MDP([[[1], [0]], [[1], [1]]], np.ones((2, 2, 1)), [-1, 0],
+    ...            [False, True], 0.5)
+    >>> rho, start = np.array([0, 0]), np.array([1.0, 0.0])
+    >>> abstract_gradient(bump, np.array([[1.0, 0.0]]), rho, start)
+    (-1.0, array([[ 0. , -0.5]]), array([1.]))
+    """
+    if start is None:
+        start = np.full(mdp.n_states, 1 / mdp.n_states)
+    transitions = transition_matrix(mdp, check_policy(abstract_policy[rho], mdp))
+    factors = factorize(mdp, transitions)
+    v = factors.solve(mdp.reward)
+    d = factors.solve(start, "T") * ~mdp.terminal
+    n_abstract = len(abstract_policy)
+    q = np.where(mdp.allowed, action_values(mdp, v), 0.0)
+    gradient = np.zeros_like(abstract_policy)
+    np.add.at(gradient, rho, mdp.gamma * d[:, None] * q)
+    return float(start @ v), gradient, np.bincount(rho, d, minlength=n_abstract)
+
+
+def absprob_pi(
+    mdp: MDP,
+    rho: np.ndarray,
+    possible: np.ndarray,
+    *,
+    initial: np.ndarray | None = None,
+    start: np.ndarray | None = None,
+    iterations: int = 300,
+    softness: float = 0.05,
+) -> Climb:
+    """
+    Return pi_AbsGrad, climbed by the rule of the paper's group.
+
+    Iteration i = 1, 2, ... moves each abstract state by 1 / (1 + i) of the way
+    towards its best action, made soft: `softness` is spread over all actions,
+    and what falls on impossible ones is given back to the others.
+
+    Parameters
+    ----------
+    mdp : MDP
+        One task, or the union of several.
+    rho : ndarray of int, shape (S,)
+    possible : ndarray of bool, shape (Z, A)
+        Actions that an abstract state may use.
+    initial : ndarray of float, shape (Z, A), optional
+        Policy to start from; uniform over `possible` by default.
+    start : ndarray of float, shape (S,), optional
+        As for :func:`abstract_gradient`.
+    iterations : int, default 300
+    softness : float, default 0.05
+
+    Returns
+    -------
+    Climb
+        Abstract states that are never visited keep their row of `initial`.
+
+    Raises
+    ------
+    ValueError
+        If `iterations` is negative, `softness` is outside 0..1, or `initial`
+        gives no policy.
+
+    References
+    ----------
+    da Silva, Pereira & Costa (2012), AbsProb-PI; Koga, Freire & Costa (2014),
+    AbsProb-PI-multiple.
+
+    Examples
+    --------
+    The first action leads to the goal; half the way there in one iteration.
+
+    >>> bump = MDP([[[1], [0]], [[1], [1]]], np.ones((2, 2, 1)), [-1, 0],
+    ...            [False, True], 0.5)
+    >>> climb = absprob_pi(bump, np.zeros(2, int), np.ones((1, 2), bool),
+    ...                    iterations=1, softness=0)
+    >>> climb.policy
+    array([[0.75, 0.25]])
+    """
+    if iterations < 0:
+        raise ValueError(f"iterations must not be negative, got {iterations}")
+    if not 0 <= softness <= 1:
+        raise ValueError(f"softness must lie in 0..1, got {softness}")
+    policy = uniform_policy(possible) if initial is None else np.array(initial, float)
+    n_abstract, n_actions = policy.shape
+    history = []
+    for i in range(1, iterations + 1):
+        value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
+        history.append(value)
+        best = np.where(possible, gradient, -np.inf).argmax(axis=1)
+        target = possible * (softness / n_actions)
+        target[np.arange(n_abstract), best] += 1 - softness
+        target /= target.sum(axis=1, keepdims=True)
+        step = np.where(visits > 0, 1 / (1 + i), 0.0)[:, None]
+        policy = policy + step * (target - policy)
+    history.append(abstract_gradient(mdp, policy, rho, start)[0])
+    return Climb(policy, np.array(history))
+
+
+def natural_ascent(
+    mdp: MDP,
+    rho: np.ndarray,
+    possible: np.ndarray,
+    *,
+    initial: np.ndarray | None = None,
+    start: np.ndarray | None = None,
+    iterations: int = 100,
+    floor: float = 0.005,
+) -> Climb:
+    """
+    Return the policy that exact natural-gradient ascent climbs to.
+
+    The natural gradient of a soft-max policy is the mean advantage of each
+    action where it is used: p is multiplied by exp(step * advantage).  The step
+    grows by a fifth after a gain and halves until the value grows; no possible
+    action falls below about `floor`, from which it could not return.  Arguments
+    as for :func:`absprob_pi`; the history ends when no step gains any more.
+    It finds local optima, so start it from several policies.
+
+    References
+    ----------
+    Kakade (2001), A natural policy gradient.
+    """
+    if not 0 <= floor * np.shape(possible)[1] < 1:
+        raise ValueError(f"floor must lie in 0..1/A, got {floor}")
+    policy = uniform_policy(possible) if initial is None else np.array(initial, float)
+    value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
+    history, step = [value], 0.1
+    for _ in range(iterations):
+        mean_q = gradient / np.where(visits > 0, visits, 1)[:, None]
+        advantage = mean_q - (policy * mean_q).sum(axis=1, keepdims=True)
+        while step > 1e-9:
+            raised = policy * np.exp(step * advantage)
+            raised /= raised.sum(axis=1, keepdims=True)
+            raised = np.where(possible, np.maximum(raised, floor), 0.0)
+            raised /= raised.sum(axis=1, keepdims=True)
+            new = abstract_gradient(mdp, raised, rho, start)
+            if new[0] > value:
+                break
+            step /= 2
+        else:
+            break
+        policy, (value, gradient, visits), step = raised, new, 1.2 * step
+        history.append(value)
+    return Climb(policy, np.array(history))
+
+
+def random_starts(possible: np.ndarray, n: int, *, rng) -> np.ndarray:
+    """
+    Return n abstract policies, uniform on the simplex of possible actions, (n, Z, A).
+
+    Climb from each, and keep the best: AbsProb-PI finds local optima.
+
+    >>> starts = random_starts(np.array([[True, False]]), 2, rng=0)
+    >>> starts.tolist()
+    [[[1.0, 0.0]], [[1.0, 0.0]]]
+    """
+    weight = np.random.default_rng(rng).exponential(size=(n, *np.shape(possible)))
+    weight *= possible
+    return weight / weight.sum(axis=2, keepdims=True)

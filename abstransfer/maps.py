@@ -1,0 +1,279 @@
+"""
+Buildings as text: read, check, print and edit maps.
+
+A map of H x W cells is a picture of (2H+1) x (2W+1) characters.  Cells stand
+at the odd rows and columns (counted from 0), the edges between them::
+
+    +---+-+       .  cell of a corridor       - |    wall
+    |. .| |       *  cell of a room, a goal   d      door
+    |   + +    blank cell of a room           blank  no wall
+    |. .d*|       +  corner, drawn from the edges around it
+    +---+-+
+
+Error messages count rows and columns of the text from 1, as an editor does;
+functions take cells as (row, column) counted from 0.
+Page 1 of the book teaches this module.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from ._map_text import (
+    CORRIDOR,
+    DOOR,
+    GOAL,
+    OPEN,
+    ROOM,
+    STEP,
+    WALLS,
+    check_building,
+    check_characters,
+    components,
+    rectangle,
+    to_text,
+)
+from ._paths import DATA
+
+DIRECTIONS = ("N", "E", "S", "W")
+
+
+@dataclass(frozen=True)
+class Map:
+    """
+    A building whose text was checked; :func:`parse_map` makes one.
+
+    Maps are equal when their texts are; ``str(map)`` is the text.
+    The C = H * W cells are numbered row by row; all arrays are read-only.
+
+    Examples
+    --------
+    A corridor of one cell, and a room whose goal is behind a door.
+
+    >>> building = parse_map("+---+\\n|.d*|\\n+---+")
+    >>> building
+    Map(1 x 2 cells, 1 room, 1 goal)
+    >>> building.neighbors  # N, E, S, W
+    array([[-1,  1, -1, -1],
+           [-1, -1, -1,  0]])
+    """
+
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        height, width = self.shape
+        rooms = f"{self.n_rooms} room{'s' * (self.n_rooms != 1)}"
+        goals = f"{len(self.goals)} goal{'s' * (len(self.goals) != 1)}"
+        return f"Map({height} x {width} cells, {rooms}, {goals})"
+
+    @cached_property
+    def chars(self) -> np.ndarray:
+        """The text as characters, shape (2H+1, 2W+1)."""
+        return _frozen(np.array([list(line) for line in self.text.split("\n")]))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of cells, (H, W)."""
+        rows, columns = self.chars.shape
+        return rows // 2, columns // 2
+
+    @property
+    def n_cells(self) -> int:
+        """Number of cells C."""
+        return self.shape[0] * self.shape[1]
+
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """Kind of each cell, shape (C,): CORRIDOR, ROOM or GOAL."""
+        return _frozen(self.chars[1::2, 1::2].ravel())
+
+    @cached_property
+    def goals(self) -> np.ndarray:
+        """Cells that hold a goal, shape (N,)."""
+        return _frozen(np.flatnonzero(self.cells == GOAL))
+
+    @cached_property
+    def edges(self) -> np.ndarray:
+        """Character of each cell's edge to N, E, S, W, shape (C, 4)."""
+        rows, columns = np.indices(self.shape).reshape(2, -1, 1) * 2 + 1
+        return _frozen(self.chars[rows + STEP[:, 0], columns + STEP[:, 1]])
+
+    @cached_property
+    def doors(self) -> np.ndarray:
+        """Whether the edge to N, E, S, W is a door, shape (C, 4)."""
+        return _frozen(self.edges == DOOR)
+
+    @cached_property
+    def neighbors(self) -> np.ndarray:
+        """Cell next to each cell to N, E, S, W, shape (C, 4); -1 behind a wall."""
+        reached = np.arange(self.n_cells)[:, None] + STEP @ [self.shape[1], 1]
+        return _frozen(np.where(np.isin(self.edges, WALLS), -1, reached))
+
+    @cached_property
+    def regions(self) -> np.ndarray:
+        """Region of each cell, shape (C,): cells joined without a door."""
+        return _frozen(components(np.where(self.doors, -1, self.neighbors)))
+
+    @property
+    def n_rooms(self) -> int:
+        """Number of regions that are rooms."""
+        return len(np.unique(self.regions[self.cells != CORRIDOR]))
+
+    @property
+    def n_doors(self) -> int:
+        """Number of doors; each belongs to two cells."""
+        return int(self.doors.sum()) // 2
+
+    def _edge(self, cell, direction) -> tuple[int, int]:
+        """Return the place of an edge in the text; refuse what is not on the map."""
+        row, column = cell
+        height, width = self.shape
+        if not (0 <= row < height and 0 <= column < width):
+            raise ValueError(f"cell must lie within {height} x {width}, got {cell}")
+        if direction not in DIRECTIONS:
+            raise ValueError(
+                f"direction must be one of {DIRECTIONS}, got {direction!r}"
+            )
+        d_row, d_column = STEP[DIRECTIONS.index(direction)]
+        return 2 * row + 1 + d_row, 2 * column + 1 + d_column
+
+    def set_edge(self, cell: tuple[int, int], direction: str, kind: str) -> Map:
+        """
+        Return the map with one edge made a ``"wall"``, a ``"door"`` or ``"open"``.
+
+        Raises ValueError, with row and column of the text, where the building
+        would not be legal any more.
+
+        >>> room = parse_map("+---+\\n|  *|\\n+---+")
+        >>> room.set_edge((0, 0), "E", "door").n_rooms
+        2
+        """
+        place = self._edge(cell, direction)
+        wall = "-" if direction in ("N", "S") else "|"
+        char = {"wall": wall, "door": "d", "open": OPEN}
+        if kind not in char:
+            raise ValueError(f"kind must be one of {tuple(char)}, got {kind!r}")
+        return self._redrawn({place: char[kind]})
+
+    def toggle_wall(self, cell: tuple[int, int], direction: str) -> Map:
+        """Return the map with a wall where there was none, or without it."""
+        is_wall = self.chars[self._edge(cell, direction)] in ("-", "|")
+        return self.set_edge(cell, direction, "open" if is_wall else "wall")
+
+    def add_door(self, cell: tuple[int, int], direction: str) -> Map:
+        """Return the map with a door in the given edge of a cell."""
+        return self.set_edge(cell, direction, "door")
+
+    def move_goal(self, old: tuple[int, int], new: tuple[int, int]) -> Map:
+        """Return the map with the goal of one room cell moved to another."""
+        places = []
+        for cell, name, wanted in ((old, "old", GOAL), (new, "new", ROOM)):
+            row, column = self._edge(cell, "N")
+            if self.chars[row + 1, column] != wanted:
+                what = (
+                    "hold a goal" if wanted == GOAL else "be a room cell without goal"
+                )
+                raise ValueError(f"{name} must {what}, got cell {cell}")
+            places.append((row + 1, column))
+        return self._redrawn({places[0]: ROOM, places[1]: GOAL})
+
+    def _redrawn(self, changes: dict[tuple[int, int], str]) -> Map:
+        chars = self.chars.copy()
+        for place, char in changes.items():
+            chars[place] = char
+        return parse_map(to_text(chars))
+
+
+def parse_map(text: str) -> Map:
+    """
+    Return the map that a text draws; the inverse of ``str``.
+
+    Corners carry no information and are redrawn.  Empty lines before and
+    after the picture are ignored.
+
+    Raises
+    ------
+    ValueError
+        Naming row, column and remedy: lines of different length, an unknown
+        character, a hole in the border, a room that opens on the corridor
+        without a door, a goal in the corridor, a door within one region, no
+        goal, a region that cannot be reached.
+
+    Examples
+    --------
+    >>> parse_map("+---+\\n|  *|\\n+- -+")
+    Traceback (most recent call last):
+        ...
+    ValueError: row 3, column 3: the border has a hole; put a wall there
+    """
+    if not isinstance(text, str):
+        raise ValueError(f"text of a map must be a str, got {type(text).__name__}")
+    lines = text.splitlines()
+    while lines and not lines[-1].strip():
+        lines.pop()
+    n_blank = next((i for i, line in enumerate(lines) if line.strip()), 0)
+    chars = rectangle(lines[n_blank:], n_blank)
+    check_characters(chars, n_blank)
+    map_ = Map(to_text(chars))
+    check_building(map_, n_blank)
+    return map_
+
+
+def read_map(source: str | Path) -> Map:
+    """
+    Return the map in a file, or one that comes with the package, by its name.
+
+    Raises FileNotFoundError where there is no such file or name, and
+    ValueError, naming the file, for anything :func:`parse_map` refuses.
+
+    >>> read_map("source")
+    Map(9 x 15 cells, 11 rooms, 11 goals)
+    """
+    shipped = {path.stem: path for path in sorted((DATA / "maps").glob("*.txt"))}
+    path = shipped.get(str(source), Path(source))
+    if not path.is_file():
+        raise FileNotFoundError(
+            f"no map file {str(source)!r}; maps that come with the package: "
+            + ", ".join(shipped)
+        )
+    try:
+        return parse_map(path.read_text(encoding="utf-8"))
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{path}: not a text file (byte {error.start})") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def tile_map(map_: Map, rows: int, columns: int) -> Map:
+    """
+    Return a building of rows x columns copies, neighbours joined by one door.
+
+    For measuring how cost grows with the size of a building.
+
+    >>> tile_map(read_map("source"), 2, 2)
+    Map(18 x 30 cells, 44 rooms, 44 goals)
+    """
+    if rows < 1 or columns < 1:
+        raise ValueError(f"rows and columns must be at least 1, got {rows}, {columns}")
+    height, width = map_.shape
+    chars = np.full((2 * height * rows + 1, 2 * width * columns + 1), "+")
+    for i in range(rows):
+        for j in range(columns):
+            top, left = 2 * height * i, 2 * width * j
+            chars[top : top + 2 * height + 1, left : left + 2 * width + 1] = map_.chars
+    middle_row, middle_column = 2 * (height // 2) + 1, 2 * (width // 2) + 1
+    chars[middle_row :: 2 * height, 2 * width : -1 : 2 * width] = DOOR
+    chars[2 * height : -1 : 2 * height, middle_column :: 2 * width] = DOOR
+    return parse_map(to_text(chars))
+
+
+def _frozen(array: np.ndarray) -> np.ndarray:
+    array.flags.writeable = False
+    return array

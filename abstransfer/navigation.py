@@ -1,0 +1,245 @@
+"""
+Navigation tasks: what a robot in a building can do, and what it sees.
+
+This is the only module that knows what a wall is and what an MDP is.
+Page 1 of the book teaches the tasks, page 4 the features and rho.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .maps import CORRIDOR, DIRECTIONS, Map
+from .mdp import MDP
+
+KINDS = ("see_empty_space", "see_door_far", "see_room", "see_corridor")
+ORIENTATIONS = ("head_to_goal", "opposite_to_goal")
+LABELS = tuple(f"{kind}_{side}" for side in ORIENTATIONS for kind in KINDS)
+ACTIONS = LABELS  # go to what I see
+FEATURES = (*LABELS, "near_goal", "almost_near_goal", "in_room")
+NO_LABEL = -1
+
+
+@dataclass(frozen=True, eq=False)
+class NavigationTasks:
+    """
+    All tasks of one building or several, as one union MDP.
+
+    Made by :func:`navigation_tasks`.  A state is a task and a cell; the states
+    of a task are consecutive.  Z = 2^F abstract states, F features.
+    """
+
+    mdp: MDP
+    rho: np.ndarray  # (S,) abstract state: bit f is 1 iff feature f holds
+    available: np.ndarray  # (S, A) bool: the action has a direction to go in
+    labels: np.ndarray  # (S, 4) index into LABELS of what is seen, or NO_LABEL
+    task: np.ndarray  # (S,) number of the task
+    cell: np.ndarray  # (S,) cell of its map
+    maps: tuple[Map, ...]  # one per building
+    building: np.ndarray  # (N,) index into maps, by task
+    goal: np.ndarray  # (N,) goal cell, by task
+    actions: tuple[str, ...]  # A names
+    features: tuple[str, ...]  # F names
+
+    @property
+    def n_abstract(self) -> int:
+        """Number of abstract states that the features can tell apart, Z = 2^F."""
+        return 1 << len(self.features)
+
+    @property
+    def possible(self) -> np.ndarray:
+        """
+        Actions that an abstract state does not rule out, shape (Z, A).
+
+        Feature "see x" is 0 where action "go to x" is unavailable; where that
+        feature is left out, the action counts as possible.
+        """
+        code = np.arange(self.n_abstract)
+        possible = np.ones((self.n_abstract, len(self.actions)), bool)
+        for bit, feature in enumerate(self.features):
+            if feature in self.actions:
+                possible[:, self.actions.index(feature)] = code >> bit & 1
+        possible[~possible.any(axis=1)] = True  # sees nothing: is no state of a map
+        return possible
+
+
+def navigation_tasks(
+    maps: Map | Sequence[Map],
+    *,
+    success: float = 0.9,
+    reward: str = "cost",
+    gamma: float = 0.99,
+    actions: str = "relational",
+    unavailable: str = "wait",
+    near: int = 5,
+    almost_near: int = 8,
+    features: Sequence[str] = FEATURES,
+    keep: Sequence[int] | None = None,
+) -> NavigationTasks:
+    """
+    Return all goals of one map, or of several, as one union MDP.
+
+    Parameters
+    ----------
+    maps : Map or sequence of Map
+    success : float, default 0.9
+        Probability that a move succeeds; else the robot stays where it is.
+    reward : {"cost", "goal"}
+        ``"cost"``: -1 on reaching any cell but the goal, 0 on the goal (the
+        paper's rule).  ``"goal"``: 1 on reaching the goal, else 0.
+    gamma : float, default 0.99
+        Discount for solving and evaluating; learning has its own.
+    actions : {"relational", "compass"}
+        ``"relational"``: the 8 LABELS; a move goes in a direction drawn
+        uniformly among those that carry the label.  ``"compass"``: N, E, S, W.
+    unavailable : {"wait", "masked"}
+        What an action does where nothing carries its label, or a wall stands:
+        spend a step, or it may not be chosen.
+    near, almost_near : int, default 5 and 8
+        Largest Manhattan distance of near_goal and of almost_near_goal.
+    features : sequence of str, default FEATURES
+        The features that make the abstract state; the others are left out.
+    keep : sequence of int, optional
+        Tasks to keep, numbered over the goals of all maps; all by default.
+
+    Raises
+    ------
+    ValueError
+        Naming the argument, what it must be and what it was.
+
+    Examples
+    --------
+    >>> from abstransfer.maps import read_map
+    >>> tasks = navigation_tasks(read_map("source"))
+    >>> tasks.mdp.n_states, tasks.mdp.n_actions  # 11 tasks of 135 cells
+    (1485, 8)
+    """
+    maps = (maps,) if isinstance(maps, Map) else tuple(maps)
+    features = _check_options(success, reward, actions, unavailable, features)
+    if not 0 <= near <= almost_near:
+        raise ValueError(
+            f"0 <= near <= almost_near must hold, got {near}, {almost_near}"
+        )
+    building, goal = _select_tasks(maps, keep)
+
+    sizes = [maps[b].n_cells for b in building]
+    task = np.repeat(np.arange(len(goal)), sizes)
+    cell = np.concatenate([np.arange(size) for size in sizes])
+    seen = [_look(maps[b], g) for b, g in zip(building, goal, strict=True)]
+    neighbors, labels, distance, in_room = map(np.concatenate, zip(*seen, strict=True))
+    first_state = np.arange(len(cell)) - cell
+    neighbors = np.where(neighbors < 0, -1, neighbors + first_state[:, None])
+    terminal = cell == goal[task]
+
+    ways = _ways(labels, actions)
+    available = ways.any(axis=2)
+    next_state, prob = _outcomes(neighbors, ways, success)
+    mdp = MDP(
+        next_state=next_state,
+        prob=prob,
+        reward=terminal - 1.0 if reward == "cost" else terminal * 1.0,
+        terminal=terminal,
+        gamma=gamma,
+        allowed=available if unavailable == "masked" else None,
+    )
+    holds = {label: (labels == i).any(axis=1) for i, label in enumerate(LABELS)}
+    holds["near_goal"] = distance <= near
+    holds["almost_near_goal"] = (near < distance) & (distance <= almost_near)
+    holds["in_room"] = in_room
+    rho = np.zeros(len(cell), dtype=np.int64)
+    for bit, feature in enumerate(features):
+        rho |= holds[feature].astype(np.int64) << bit
+    names = DIRECTIONS if actions == "compass" else LABELS
+    return NavigationTasks(
+        mdp, rho, available, labels, task, cell, maps, building, goal, names, features
+    )
+
+
+def describe(z: int, features: Sequence[str] = FEATURES) -> str:
+    """
+    Return an abstract state in the paper's words: its true features.
+
+    >>> describe(0b010_0010_0001, features=FEATURES)
+    'see_empty_space_head_to_goal ^ see_door_far_opposite_to_goal ^ almost_near_goal'
+    """
+    if not 0 <= z < 1 << len(features):
+        raise ValueError(f"z must lie in 0..{(1 << len(features)) - 1}, got {z}")
+    true = [name for bit, name in enumerate(features) if z >> bit & 1]
+    return " ^ ".join(true) or "(no feature holds)"
+
+
+def _check_options(success, reward, actions, unavailable, features) -> tuple[str, ...]:
+    """Refuse a bad option by name; return the features in the order of FEATURES."""
+    if not 0 < success <= 1:
+        raise ValueError(f"success must satisfy 0 < success <= 1, got {success}")
+    for name, value, known in (
+        ("reward", reward, ("cost", "goal")),
+        ("actions", actions, ("relational", "compass")),
+        ("unavailable", unavailable, ("wait", "masked")),
+    ):
+        if value not in known:
+            raise ValueError(f"{name} must be one of {known}, got {value!r}")
+    for feature in features:
+        if feature not in FEATURES:
+            raise ValueError(f"features must be among {FEATURES}, got {feature!r}")
+    return tuple(name for name in FEATURES if name in features)
+
+
+def _select_tasks(maps, keep) -> tuple[np.ndarray, np.ndarray]:
+    """Return building (N,) and goal cell (N,) of the tasks to keep."""
+    if not maps or not all(isinstance(map_, Map) for map_ in maps):
+        raise ValueError(f"maps must be one Map or several, got {maps!r}")
+    building = np.repeat(np.arange(len(maps)), [len(map_.goals) for map_ in maps])
+    goal = np.concatenate([map_.goals for map_ in maps])
+    if keep is None:
+        return building, goal
+    keep = np.asarray(keep)
+    if (
+        not keep.size
+        or keep.dtype.kind != "i"
+        or not np.isin(keep, range(len(goal))).all()
+    ):
+        raise ValueError(f"keep must name tasks among 0..{len(goal) - 1}, got {keep}")
+    return building[keep], goal[keep]
+
+
+def _look(map_: Map, goal: int):
+    """Return neighbors (C, 4), labels (C, 4), distance to goal (C,), in_room (C,)."""
+    neighbors, doors, width = map_.neighbors, map_.doors, map_.shape[1]
+    in_room = map_.cells != CORRIDOR
+    row, column = np.divmod(np.arange(map_.n_cells), width)
+    distance = abs(row - goal // width) + abs(column - goal % width)
+    far_door = doors.any(axis=1)
+    kind = np.select(
+        [doors & in_room[neighbors], doors, far_door[neighbors]],
+        [
+            KINDS.index("see_room"),
+            KINDS.index("see_corridor"),
+            KINDS.index("see_door_far"),
+        ],
+        KINDS.index("see_empty_space"),
+    )
+    away = distance[neighbors] > distance[:, None]
+    labels = np.where(neighbors < 0, NO_LABEL, kind + len(KINDS) * away)
+    return neighbors, labels, distance, in_room
+
+
+def _ways(labels: np.ndarray, actions: str) -> np.ndarray:
+    """Return the directions each action chooses from, shape (S, A, 4) bool."""
+    if actions == "relational":
+        return labels[:, None, :] == np.arange(len(LABELS))[:, None]
+    return (labels != NO_LABEL)[:, None, :] & np.eye(len(DIRECTIONS), dtype=bool)
+
+
+def _outcomes(neighbors, ways, success) -> tuple[np.ndarray, np.ndarray]:
+    """Return next_state and prob, (S, A, 5): a move N, E, S, W, or staying."""
+    state = np.arange(len(ways))[:, None, None]
+    n_ways = ways.sum(axis=2, keepdims=True)
+    prob = np.zeros((*ways.shape[:2], 5))
+    prob[:, :, :4] = ways * success / np.maximum(n_ways, 1)
+    prob[:, :, 4] = np.where(n_ways[:, :, 0] > 0, 1 - success, 1.0)
+    next_state = np.where(ways, neighbors[:, None, :], state)
+    return np.concatenate([next_state, state + 0 * n_ways], axis=2), prob

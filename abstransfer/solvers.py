@@ -1,0 +1,170 @@
+"""
+Exact values and optimal actions of any finite MDP.
+
+As in the paper, V(s) counts the reward of s itself and of all states reached
+from it; Q(s, a) is the expected V of the state that action a leads to.
+So V(s) = R(s) + gamma sum_a pi(s, a) Q(s, a), and V = R in terminal states.
+Page 2 of the book teaches this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.sparse import csc_array, csr_array, eye_array
+from scipy.sparse.linalg import splu
+
+from .mdp import MDP, check_policy
+
+TIE = 1e-9  # actions whose values differ by less count as equally good
+
+
+def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
+    """
+    Return P (S, S) under a policy (S, A); rows of terminal states are empty.
+
+    >>> import numpy as np
+    >>> both_ways = MDP([[[0], [1]], [[1], [1]]], np.ones((2, 2, 1)), [0, 1],
+    ...                 [False, True], 0.9)
+    >>> transition_matrix(both_ways, np.full((2, 2), 0.5)).toarray()
+    array([[0.5, 0.5],
+           [0. , 0. ]])
+    """
+    weight = policy[:, :, None] * mdp.prob
+    weight[mdp.terminal] = 0.0
+    state, action, outcome = np.nonzero(weight)
+    entries = (
+        weight[state, action, outcome],
+        (state, mdp.next_state[state, action, outcome]),
+    )
+    return csr_array(entries, shape=(mdp.n_states, mdp.n_states))
+
+
+def factorize(mdp: MDP, transitions: csr_array):
+    """Return the sparse LU factors of I - gamma P, for P (S, S)."""
+    return splu(csc_array(eye_array(mdp.n_states) - mdp.gamma * transitions))
+
+
+def evaluate_policy(mdp: MDP, policy: np.ndarray) -> np.ndarray:
+    """
+    Return the value of every state under a stochastic policy.
+
+    Solves V = R + gamma P V as a sparse linear system: there is no tolerance
+    to choose.
+
+    Parameters
+    ----------
+    mdp : MDP
+    policy : ndarray of float, shape (S, A)
+        ``policy[s, a]`` is the probability of action a in state s.
+
+    Returns
+    -------
+    v : ndarray of float, shape (S,)
+        Expected discounted reward, that of s included.
+
+    Raises
+    ------
+    ValueError
+        If `policy` is no policy of `mdp`.
+
+    References
+    ----------
+    Freire & Costa (2015), the unnumbered equation of V under "Deduced Policy".
+
+    Examples
+    --------
+    Three cells in a row, the last the goal, discounted by a half.
+
+    >>> corridor = MDP([[[1]], [[2]], [[2]]], np.ones((3, 1, 1)), [0, 0, 1],
+    ...                [False, False, True], 0.5)
+    >>> evaluate_policy(corridor, np.ones((3, 1)))
+    array([0.25, 0.5 , 1.  ])
+    """
+    transitions = transition_matrix(mdp, check_policy(policy, mdp))
+    return factorize(mdp, transitions).solve(mdp.reward)
+
+
+def action_values(mdp: MDP, v: np.ndarray) -> np.ndarray:
+    """
+    Return Q (S, A): the expected value v (S,) of the state each action leads to.
+
+    Zero in terminal states, minus infinity where an action is not allowed.
+    """
+    q = np.einsum("sak,sak->sa", mdp.prob, v[mdp.next_state])
+    q[~mdp.allowed] = -np.inf
+    q[mdp.terminal] = 0.0
+    return q
+
+
+def value_iteration(mdp: MDP) -> Iterator[np.ndarray]:
+    """
+    Yield the values (S,) before the first sweep, and after each, without end.
+
+    >>> from itertools import islice
+    >>> corridor = MDP([[[1]], [[2]], [[2]]], np.ones((3, 1, 1)), [0, 0, 1],
+    ...                [False, False, True], 0.5)
+    >>> [v.tolist() for v in islice(value_iteration(corridor), 3)]
+    [[0.0, 0.0, 1.0], [0.0, 0.5, 1.0], [0.25, 0.5, 1.0]]
+    """
+    v = mdp.reward
+    while True:
+        yield v
+        v = mdp.reward + mdp.gamma * action_values(mdp, v).max(axis=1)
+
+
+def optimal_values(mdp: MDP) -> np.ndarray:
+    """
+    Return the optimal value of every state, exact, shape (S,).
+
+    Policy iteration, started from the policy that some sweeps of value
+    iteration find.  An action is changed only for one better by more than
+    `TIE`: equally good ones would swap for ever on rounding.
+
+    >>> corridor = MDP([[[0], [1]], [[0], [2]], [[2], [2]]], np.ones((3, 2, 1)),
+    ...                [0, 0, 1], [False, False, True], 0.5)
+    >>> optimal_values(corridor)
+    array([0.25, 0.5 , 1.  ])
+    """
+    previous = np.full(mdp.n_states, np.inf)
+    for v in value_iteration(mdp):
+        if np.abs(v - previous).max() <= 1e-6 * max(1.0, np.abs(mdp.reward).max()):
+            break
+        previous = v
+    best = action_values(mdp, v).argmax(axis=1)
+    states = np.arange(mdp.n_states)
+    while True:
+        policy = np.zeros((mdp.n_states, mdp.n_actions))
+        policy[states, best] = 1.0
+        v = evaluate_policy(mdp, policy)
+        q = action_values(mdp, v)
+        better = q.max(axis=1) > q[states, best] + TIE
+        if not better.any():
+            return v
+        best = np.where(better, q.argmax(axis=1), best)
+
+
+def optimal_actions(mdp: MDP, v: np.ndarray) -> np.ndarray:
+    """
+    Return which actions are optimal given the optimal values v (S,).
+
+    Returns
+    -------
+    optimal : ndarray of bool, shape (S, A)
+        Every action within `TIE` of the best; none in a terminal state.
+
+    Examples
+    --------
+    Staying and leaving are worth the same where there is nothing to win.
+
+    >>> idle = MDP([[[0], [1]], [[1], [1]]], np.ones((2, 2, 1)), [0, 0],
+    ...            [False, True], 0.9)
+    >>> optimal_actions(idle, optimal_values(idle))
+    array([[ True,  True],
+           [False, False]])
+    """
+    q = action_values(mdp, v)
+    optimal = q >= q.max(axis=1, keepdims=True) - TIE
+    optimal[mdp.terminal] = False
+    return optimal

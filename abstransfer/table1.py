@@ -1,0 +1,147 @@
+"""
+The three abstract policies of a source, and Table 1 of the paper.
+
+Page 7 of the book teaches this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from .absprob_pi import absprob_pi
+from .navigation import NavigationTasks
+from .policies import (
+    break_ties,
+    induce_nondeterministic,
+    induce_probabilistic,
+    restrict_policy,
+    uniform_policy,
+    unseen_share,
+)
+from .solvers import evaluate_policy, optimal_actions, optimal_values
+
+BUILDERS = ("nd", "prob", "grad")
+ROWS = ("rand", *BUILDERS, "optimal")
+PAPER = {
+    "source": dict(zip(ROWS, (-88.97, -44.61, -36.91, -30.65, -14.86), strict=True)),
+    "target": dict(zip(ROWS, (-97.07, -80.41, -70.03, -70.34, -29.13), strict=True)),
+}
+
+
+def abstract_policies(
+    tasks: NavigationTasks,
+    builders: Iterable[str] = BUILDERS,
+    *,
+    ties: str = "share",
+    rng=None,
+) -> dict[str, np.ndarray]:
+    """
+    Return abstract policies (Z, A) built from source tasks, by builder.
+
+    Parameters
+    ----------
+    tasks : NavigationTasks
+        The solved tasks: one, those of a map, or those of several maps.
+    builders : iterable of {"nd", "prob", "grad"}
+    ties, rng
+        As for :func:`~abstransfer.policies.break_ties`.
+
+    Raises
+    ------
+    ValueError
+        If a builder is unknown.
+
+    Examples
+    --------
+    Behind the only door lies the goal: both builders say "go to the room".
+
+    >>> from abstransfer.maps import parse_map
+    >>> from abstransfer.navigation import describe, navigation_tasks
+    >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"))
+    >>> describe(tasks.rho[0])
+    'see_room_head_to_goal ^ near_goal'
+    >>> policies = abstract_policies(tasks, ("nd", "prob"))
+    >>> tasks.actions[policies["prob"][tasks.rho[0]].argmax()]
+    'see_room_head_to_goal'
+    """
+    builders = tuple(builders)
+    for builder in builders:
+        if builder not in BUILDERS:
+            raise ValueError(f"builders must be among {BUILDERS}, got {builder!r}")
+    mdp, rho, possible = tasks.mdp, tasks.rho, tasks.possible
+    policies = {}
+    if "nd" in builders or "prob" in builders:
+        optimal = optimal_actions(mdp, optimal_values(mdp))
+        votes = break_ties(optimal, ties, rng=rng)
+        policies["nd"] = induce_nondeterministic(votes, rho, possible)
+        policies["prob"] = induce_probabilistic(votes, rho, possible)
+    if "grad" in builders:
+        policies["grad"] = absprob_pi(mdp, rho, possible).policy
+    return {builder: policies[builder] for builder in builders}
+
+
+def column(
+    tasks: NavigationTasks, policies: dict[str, np.ndarray]
+) -> dict[str, int | float]:
+    """
+    Return one column of Table 1, with the counts of its maps.
+
+    Values are the mean of V over all cells of all tasks, goals included, in
+    discounted reward; ``abstract_states`` counts those of non-goal cells.
+    """
+    mdp = tasks.mdp
+    guides = {"rand": uniform_policy(mdp.allowed)}
+    for name, policy in policies.items():
+        guides[name] = restrict_policy(policy[tasks.rho], mdp.allowed)
+    guides["uniform_available"] = uniform_policy(tasks.available)
+    counts = {
+        "cells": sum(map_.n_cells for map_ in tasks.maps),
+        "rooms": sum(map_.n_rooms for map_ in tasks.maps),
+        "goals": len(tasks.goal),
+        "abstract_states": len(np.unique(tasks.rho[~mdp.terminal])),
+    }
+    values = {
+        name: float(evaluate_policy(mdp, guide).mean())
+        for name, guide in guides.items()
+    }
+    return counts | values | {"optimal": float(optimal_values(mdp).mean())}
+
+
+def table1(source: NavigationTasks, target: NavigationTasks | None = None) -> dict:
+    """
+    Return Table 1: policies of the source, executed in source and target.
+
+    Returns
+    -------
+    dict
+        ``source`` and ``target``, each a :func:`column`, and ``unseen``, the
+        share of non-goal target states whose abstract state the source has
+        not.  Without `target`, only ``source``.
+
+    References
+    ----------
+    Freire & Costa (2015), Table 1.
+
+    Examples
+    --------
+    >>> from abstransfer.maps import read_map
+    >>> from abstransfer.navigation import navigation_tasks
+    >>> result = table1(navigation_tasks(read_map("source")))
+    >>> round(result["source"]["optimal"], 2)
+    -14.0
+    """
+    if target is not None and (source.features, source.actions) != (
+        target.features,
+        target.actions,
+    ):
+        raise ValueError("source and target must have the same features and actions")
+    policies = abstract_policies(source)
+    result = {"source": column(source, policies)}
+    if target is not None:
+        result["target"] = column(target, policies)
+        result["unseen"] = unseen_share(
+            target.rho[~target.mdp.terminal], source.rho[~source.mdp.terminal]
+        )
+    return result
