@@ -19,8 +19,8 @@ Q       ``q``                 (S, A), expected V of the state reached
 
 from .absprob_pi import (
     Climb,
-    abstract_gradient,
     absprob_pi,
+    abstract_gradient,
     natural_ascent,
     random_starts,
 )
