@@ -8,6 +8,7 @@ AbsProb-PI-multiple.  Page 6 of the book teaches this module.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -91,6 +92,7 @@ def absprob_pi(
     start: np.ndarray | None = None,
     iterations: int = 300,
     softness: float = 0.05,
+    progress: Callable[[Iterable], Iterable] = iter,
 ) -> Climb:
     """
     Return pi_AbsGrad, climbed by the rule of the paper's group.
@@ -112,6 +114,8 @@ def absprob_pi(
         As for :func:`abstract_gradient`.
     iterations : int, default 300
     softness : float, default 0.05
+    progress : callable, optional
+        Wraps the iterations, for instance ``tqdm.tqdm``.
 
     Returns
     -------
@@ -147,7 +151,7 @@ def absprob_pi(
     policy = uniform_policy(possible) if initial is None else np.array(initial, float)
     n_abstract, n_actions = policy.shape
     history = []
-    for i in range(1, iterations + 1):
+    for i in progress(range(1, iterations + 1)):
         value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
         history.append(value)
         best = np.where(possible, gradient, -np.inf).argmax(axis=1)

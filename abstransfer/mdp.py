@@ -8,6 +8,7 @@ module; nothing here knows what a building is.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -87,6 +88,13 @@ class MDP:
         ):
             array.flags.writeable = False
             object.__setattr__(self, name, array)
+
+    @cached_property
+    def transitions(self) -> tuple[np.ndarray, ...]:
+        """Outcomes that can happen: arrays state, action, next_state, prob (E,)."""
+        here = np.nonzero(self.prob)
+        state, action, _ = (index.astype(np.int32) for index in here)
+        return state, action, self.next_state[here], self.prob[here]
 
     @property
     def n_states(self) -> int:

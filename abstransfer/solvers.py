@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, eye_array
+from scipy.sparse import csr_array, eye_array
 from scipy.sparse.linalg import splu
 
 from .mdp import MDP, check_policy
@@ -31,19 +31,17 @@ def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
     array([[0.5, 0.5],
            [0. , 0. ]])
     """
-    weight = policy[:, :, None] * mdp.prob
-    weight[mdp.terminal] = 0.0
-    state, action, outcome = np.nonzero(weight)
-    entries = (
-        weight[state, action, outcome],
-        (state, mdp.next_state[state, action, outcome]),
-    )
-    return csr_array(entries, shape=(mdp.n_states, mdp.n_states))
+    state, action, next_state, prob = mdp.transitions
+    weight = np.where(mdp.terminal[state], 0.0, policy[state, action] * prob)
+    shape = (mdp.n_states, mdp.n_states)
+    matrix = csr_array((weight, (state, next_state)), shape=shape)
+    matrix.eliminate_zeros()
+    return matrix
 
 
 def factorize(mdp: MDP, transitions: csr_array):
     """Return the sparse LU factors of I - gamma P, for P (S, S)."""
-    return splu(csc_array(eye_array(mdp.n_states) - mdp.gamma * transitions))
+    return splu(eye_array(mdp.n_states, format="csc") - mdp.gamma * transitions.tocsc())
 
 
 def evaluate_policy(mdp: MDP, policy: np.ndarray) -> np.ndarray:
@@ -92,7 +90,9 @@ def action_values(mdp: MDP, v: np.ndarray) -> np.ndarray:
 
     Zero in terminal states, minus infinity where an action is not allowed.
     """
-    q = np.einsum("sak,sak->sa", mdp.prob, v[mdp.next_state])
+    state, action, next_state, prob = mdp.transitions
+    q = np.zeros((mdp.n_states, mdp.n_actions))
+    np.add.at(q, (state, action), prob * v[next_state])
     q[~mdp.allowed] = -np.inf
     q[mdp.terminal] = 0.0
     return q
@@ -118,26 +118,21 @@ def optimal_values(mdp: MDP) -> np.ndarray:
     """
     Return the optimal value of every state, exact, shape (S,).
 
-    Policy iteration, started from the policy that some sweeps of value
-    iteration find.  An action is changed only for one better by more than
-    `TIE`: equally good ones would swap for ever on rounding.
+    Policy iteration, started from the values of the uniform policy.  An action
+    is changed only for one better by more than `TIE`: equally good ones would
+    swap for ever on rounding.
 
     >>> corridor = MDP([[[0], [1]], [[0], [2]], [[2], [2]]], np.ones((3, 2, 1)),
     ...                [0, 0, 1], [False, False, True], 0.5)
     >>> optimal_values(corridor)
     array([0.25, 0.5 , 1.  ])
     """
-    previous = np.full(mdp.n_states, np.inf)
-    for v in value_iteration(mdp):
-        if np.abs(v - previous).max() <= 1e-6 * max(1.0, np.abs(mdp.reward).max()):
-            break
-        previous = v
-    best = action_values(mdp, v).argmax(axis=1)
     states = np.arange(mdp.n_states)
+    n_allowed = mdp.allowed.sum(axis=1, keepdims=True)
+    v = evaluate_policy(mdp, mdp.allowed / np.maximum(n_allowed, 1))
+    best = action_values(mdp, v).argmax(axis=1)
     while True:
-        policy = np.zeros((mdp.n_states, mdp.n_actions))
-        policy[states, best] = 1.0
-        v = evaluate_policy(mdp, policy)
+        v = evaluate_policy(mdp, np.eye(mdp.n_actions)[best])
         q = action_values(mdp, v)
         better = q.max(axis=1) > q[states, best] + TIE
         if not better.any():

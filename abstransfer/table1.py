@@ -6,7 +6,7 @@ Page 7 of the book teaches this module.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -36,6 +36,7 @@ def abstract_policies(
     *,
     ties: str = "share",
     rng=None,
+    progress: Callable[[Iterable], Iterable] = iter,
 ) -> dict[str, np.ndarray]:
     """
     Return abstract policies (Z, A) built from source tasks, by builder.
@@ -47,6 +48,8 @@ def abstract_policies(
     builders : iterable of {"nd", "prob", "grad"}
     ties, rng
         As for :func:`~abstransfer.policies.break_ties`.
+    progress
+        As for :func:`~abstransfer.absprob_pi.absprob_pi`.
 
     Raises
     ------
@@ -78,7 +81,7 @@ def abstract_policies(
         policies["nd"] = induce_nondeterministic(votes, rho, possible)
         policies["prob"] = induce_probabilistic(votes, rho, possible)
     if "grad" in builders:
-        policies["grad"] = absprob_pi(mdp, rho, possible).policy
+        policies["grad"] = absprob_pi(mdp, rho, possible, progress=progress).policy
     return {builder: policies[builder] for builder in builders}
 
 
@@ -109,7 +112,12 @@ def column(
     return counts | values | {"optimal": float(optimal_values(mdp).mean())}
 
 
-def table1(source: NavigationTasks, target: NavigationTasks | None = None) -> dict:
+def table1(
+    source: NavigationTasks,
+    target: NavigationTasks | None = None,
+    *,
+    progress: Callable[[Iterable], Iterable] = iter,
+) -> dict:
     """
     Return Table 1: policies of the source, executed in source and target.
 
@@ -137,7 +145,7 @@ def table1(source: NavigationTasks, target: NavigationTasks | None = None) -> di
         target.actions,
     ):
         raise ValueError("source and target must have the same features and actions")
-    policies = abstract_policies(source)
+    policies = abstract_policies(source, progress=progress)
     result = {"source": column(source, policies)}
     if target is not None:
         result["target"] = column(target, policies)
