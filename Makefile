@@ -9,7 +9,7 @@ PYTHON ?= python3
 HERE := $(shell cd "$$(dirname "$(strip $(MAKEFILE_LIST))")" && pwd -P)
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
-PYTEST := $(BIN)/python -m pytest --quiet -n 2 --dist loadfile
+PYTEST := $(BIN)/python -m pytest --quiet -n 2
 
 .PHONY: book test lab clean env system
 .DEFAULT_GOAL := book
@@ -53,9 +53,10 @@ test: .venv/.book system
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(MAKE) --no-print-directory book
-	$(PYTEST)
+	$(PYTEST) --dist worksteal
 	@if ls book/*.ipynb >/dev/null 2>&1; then set -x; \
-	  $(PYTEST) --nbval --nbval-current-env --nbval-cell-timeout=120 book/*.ipynb; fi
+	  $(PYTEST) --dist loadfile --nbval --nbval-current-env \
+	    --nbval-cell-timeout=120 book/*.ipynb; fi
 
 # On a build server the browser and node come from the system's packages and no
 # test is skipped; elsewhere the tests that need them say how to get them.
