@@ -45,7 +45,7 @@ from .solvers import (
     transition_matrix,
     value_iteration,
 )
-from .table1 import abstract_policies, table1
+from .table1 import abstract_policies, format_table1, table1
 
 __version__ = "0.1.0"
 
@@ -65,6 +65,7 @@ __all__ = [
     "count_votes",
     "describe",
     "evaluate_policy",
+    "format_table1",
     "induce_nondeterministic",
     "induce_probabilistic",
     "natural_ascent",

@@ -14,15 +14,7 @@ from functools import partial
 
 from .maps import read_map
 from .navigation import navigation_tasks
-from .table1 import PAPER, ROWS, table1
-
-NAMES = {
-    "rand": "pi_rand",
-    "nd": "pi_AbsND",
-    "prob": "pi_AbsProb",
-    "grad": "pi_AbsGrad",
-    "optimal": "pi*",
-}
+from .table1 import format_table1, table1
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -121,43 +113,8 @@ def _run_table1(arguments) -> int:
     if arguments.json:
         print(json.dumps(result, indent=2))
     else:
-        print(_format_table1(result))
+        print(format_table1(result))
     return 0
-
-
-def _format_table1(result: dict) -> str:
-    """Return the table as text: a block of three columns per building."""
-    columns = [name for name in ("source", "target") if name in result]
-    lines = [
-        " " * 20 + "".join(f"{name:^30}" for name in columns).rstrip(),
-        f"{'':20}" + f"{'here':>10}{'paper':>10}{'differs':>10}" * len(columns),
-    ]
-    for row in ROWS:
-        line = f"{NAMES[row]:20}"
-        for name in columns:
-            here, paper = result[name][row], PAPER[name][row]
-            line += (
-                f"{here:10.2f}{paper:10.2f}{100 * (here - paper) / abs(paper):+8.1f} %"
-            )
-        lines.append(line)
-    extra = {
-        "uniform_available": ("uniform, available", ".2f"),
-        "cells": ("cells", "d"),
-        "rooms": ("rooms", "d"),
-        "goals": ("goals", "d"),
-        "abstract_states": ("abstract states", "d"),
-    }
-    for key, (label, form) in extra.items():
-        values = "".join(f"{result[name][key]:10{form}}{'':20}" for name in columns)
-        lines.append(f"{label:20}{values}".rstrip())
-    if "unseen" in result:
-        lines.append("")
-        lines.append(
-            f"{100 * result['unseen']:.1f} % of the target's states are in an abstract "
-            "state that the source has not."
-        )
-    lines.append("Mean discounted reward over all cells and tasks; higher is better.")
-    return "\n".join(lines)
 
 
 def _add_doctor(commands) -> None:

@@ -24,6 +24,13 @@ from .solvers import evaluate_policy, optimal_actions, optimal_values
 
 BUILDERS = ("nd", "prob", "grad")
 ROWS = ("rand", *BUILDERS, "optimal")
+NAMES = {
+    "rand": "pi_rand",
+    "nd": "pi_AbsND",
+    "prob": "pi_AbsProb",
+    "grad": "pi_AbsGrad",
+    "optimal": "pi*",
+}
 PAPER = {
     "source": dict(zip(ROWS, (-88.97, -44.61, -36.91, -30.65, -14.86), strict=True)),
     "target": dict(zip(ROWS, (-97.07, -80.41, -70.03, -70.34, -29.13), strict=True)),
@@ -153,3 +160,42 @@ def table1(
             target.rho[~target.mdp.terminal], source.rho[~source.mdp.terminal]
         )
     return result
+
+
+def format_table1(result: dict) -> str:
+    """
+    Return a :func:`table1` as text: here, the paper, and the difference.
+
+    Three columns for each building; the difference in percent of the paper.
+    """
+    columns = [name for name in ("source", "target") if name in result]
+    lines = [
+        " " * 20 + "".join(f"{name:^30}" for name in columns).rstrip(),
+        f"{'':20}" + f"{'here':>10}{'paper':>10}{'differs':>10}" * len(columns),
+    ]
+    for row in ROWS:
+        line = f"{NAMES[row]:20}"
+        for name in columns:
+            here, paper = result[name][row], PAPER[name][row]
+            line += (
+                f"{here:10.2f}{paper:10.2f}{100 * (here - paper) / abs(paper):+8.1f} %"
+            )
+        lines.append(line)
+    extra = {
+        "uniform_available": ("uniform, available", ".2f"),
+        "cells": ("cells", "d"),
+        "rooms": ("rooms", "d"),
+        "goals": ("goals", "d"),
+        "abstract_states": ("abstract states", "d"),
+    }
+    for key, (label, form) in extra.items():
+        values = "".join(f"{result[name][key]:10{form}}{'':20}" for name in columns)
+        lines.append(f"{label:20}{values}".rstrip())
+    if "unseen" in result:
+        lines.append("")
+        lines.append(
+            f"{100 * result['unseen']:.1f} % of the target's states are in an abstract "
+            "state that the source has not."
+        )
+    lines.append("Mean discounted reward over all cells and tasks; higher is better.")
+    return "\n".join(lines)
