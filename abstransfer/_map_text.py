@@ -79,11 +79,13 @@ def check_characters(chars: np.ndarray, n_blank: int) -> None:
         unknown = np.argwhere(~np.isin(chars[rows, columns], list(known)))
         if len(unknown):
             row, column = unknown[0] * 2 + [rows.start, columns.start]
-            problem = f"unknown character {str(chars[row, column])!r}"
+            char = str(chars[row, column]) or "\0"  # NumPy drops a trailing NUL
+            problem = f"unknown character {char!r}"
             remedy = f"the {kind} here must be one of {', '.join(map(repr, known))}"
             refuse(n_blank + row, column, problem, remedy)
     border = np.ones(chars.shape, bool)
     border[1:-1, 1:-1] = False
+    border[::2, ::2] = False  # corners carry no information
     holes = np.argwhere(border & np.isin(chars, (OPEN, DOOR)))
     if len(holes):
         row, column = holes[0]
@@ -105,16 +107,16 @@ def check_building(map_, n_blank: int) -> None:
             refuse(n_blank + row + d_row, column + d_column, problem, remedy)
 
     is_corridor = cells == CORRIDOR
+    other = np.where(neighbors >= 0, neighbors, 0)  # behind a wall: any cell will do
+    refuse_first(
+        (neighbors >= 0) & ~doors & is_corridor[:, None] & (cells[other] == ROOM),
+        "a room opens on the corridor",
+        "put a wall or a door there",
+    )
     refuse_first(
         np.isin(regions, regions[is_corridor]) & (cells == GOAL),
         "a goal in the corridor",
         "move it into a room, or make its cells a room with walls and a door",
-    )
-    other = np.where(neighbors >= 0, neighbors, 0)  # behind a wall: any cell will do
-    refuse_first(
-        (neighbors >= 0) & ~doors & (is_corridor[:, None] != is_corridor[other]),
-        "a room opens on the corridor",
-        "put a wall or a door there",
     )
     refuse_first(
         doors & (regions[:, None] == regions[other]),
@@ -125,7 +127,7 @@ def check_building(map_, n_blank: int) -> None:
         raise ValueError("the map has no goal; put '*' in a cell of a room")
     part = components(neighbors)
     refuse_first(
-        part != part[map_.goals[0]],
-        "this region cannot be reached from the first goal",
+        part != np.bincount(part).argmax(),
+        "this region cannot be reached from the rest of the building",
         "put a door in one of its walls",
     )

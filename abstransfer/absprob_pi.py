@@ -70,15 +70,14 @@ def abstract_gradient(
     >>> abstract_gradient(bump, np.array([[1.0, 0.0]]), rho, start)
     (-1.0, array([[ 0. , -0.5]]), array([1.]))
     """
-    if start is None:
-        start = np.full(mdp.n_states, 1 / mdp.n_states)
+    start = _start(start, mdp)
     transitions = transition_matrix(mdp, check_policy(abstract_policy[rho], mdp))
     factors = factorize(mdp, transitions)
     v = factors.solve(mdp.reward)
     d = factors.solve(start, "T") * ~mdp.terminal
     n_abstract = len(abstract_policy)
     q = np.where(mdp.allowed, action_values(mdp, v), 0.0)
-    gradient = np.zeros_like(abstract_policy)
+    gradient = np.zeros((n_abstract, mdp.n_actions))
     np.add.at(gradient, rho, mdp.gamma * d[:, None] * q)
     return float(start @ v), gradient, np.bincount(rho, d, minlength=n_abstract)
 
@@ -148,7 +147,7 @@ def absprob_pi(
         raise ValueError(f"iterations must not be negative, got {iterations}")
     if not 0 <= softness <= 1:
         raise ValueError(f"softness must lie in 0..1, got {softness}")
-    policy = uniform_policy(possible) if initial is None else np.array(initial, float)
+    policy = _initial(initial, possible)
     n_abstract, n_actions = policy.shape
     history = []
     for i in progress(range(1, iterations + 1)):
@@ -178,7 +177,8 @@ def natural_ascent(
     Return the policy that exact natural-gradient ascent climbs to.
 
     The natural gradient of a soft-max policy is the mean advantage of each
-    action where it is used: p is multiplied by exp(step * advantage).  The step
+    action where it is used: p is multiplied by exp(step * advantage), up to a
+    factor that the sum of 1 takes out.  The step
     grows by a fifth after a gain and halves until the value grows; no possible
     action falls below about `floor`, from which it could not return.  Arguments
     as for :func:`absprob_pi`; the history ends when no step gains any more.
@@ -190,14 +190,15 @@ def natural_ascent(
     """
     if not 0 <= floor * np.shape(possible)[1] < 1:
         raise ValueError(f"floor must lie in 0..1/A, got {floor}")
-    policy = uniform_policy(possible) if initial is None else np.array(initial, float)
+    policy = _initial(initial, possible)
     value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
     history, step = [value], 0.1
     for _ in range(iterations):
         mean_q = gradient / np.where(visits > 0, visits, 1)[:, None]
-        advantage = mean_q - (policy * mean_q).sum(axis=1, keepdims=True)
+        used = np.where(policy > 0, mean_q, -np.inf)
+        behind = used - used.max(axis=1, keepdims=True)  # <= 0: exp cannot overflow
         while step > 1e-9:
-            raised = policy * np.exp(step * advantage)
+            raised = policy * np.exp(step * behind)
             raised /= raised.sum(axis=1, keepdims=True)
             raised = np.where(possible, np.maximum(raised, floor), 0.0)
             raised /= raised.sum(axis=1, keepdims=True)
@@ -225,3 +226,33 @@ def random_starts(possible: np.ndarray, n: int, *, rng) -> np.ndarray:
     weight = np.random.default_rng(rng).exponential(size=(n, *np.shape(possible)))
     weight *= possible
     return weight / weight.sum(axis=2, keepdims=True)
+
+
+def _start(start, mdp: MDP) -> np.ndarray:
+    """Return where episodes start, (S,); refuse what is no distribution."""
+    if start is None:
+        return np.full(mdp.n_states, 1 / mdp.n_states)
+    start = np.asarray(start, dtype=float)
+    if start.shape != (mdp.n_states,):
+        raise ValueError(f"start must have shape {(mdp.n_states,)}, got {start.shape}")
+    if not (start >= 0).all() or abs(start.sum() - 1) > 1e-9:
+        raise ValueError(f"start must be probabilities that sum to 1, got {start}")
+    return start
+
+
+def _initial(initial, possible) -> np.ndarray:
+    """Return the policy (Z, A) to climb from; refuse what cannot be climbed."""
+    stuck = np.flatnonzero(~np.any(possible, axis=1))
+    if stuck.size:
+        raise ValueError(
+            "possible must leave every abstract state an action, "
+            f"but abstract state {stuck[0]} has none"
+        )
+    if initial is None:
+        return uniform_policy(possible)
+    initial = np.array(initial, dtype=float)
+    if initial.shape != np.shape(possible):
+        raise ValueError(
+            f"initial must have shape {np.shape(possible)}, got {initial.shape}"
+        )
+    return initial

@@ -244,7 +244,7 @@ def read_map(source: str | Path) -> Map:
             + ", ".join(shipped)
         )
     try:
-        return parse_map(path.read_text(encoding="utf-8"))
+        return parse_map(path.read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError as error:
         raise ValueError(f"{path}: not a text file (byte {error.start})") from None
     except ValueError as error:

@@ -198,8 +198,9 @@ def _select_tasks(maps, keep) -> tuple[np.ndarray, np.ndarray]:
         return building, goal
     keep = np.asarray(keep)
     if (
-        not keep.size
-        or keep.dtype.kind != "i"
+        keep.ndim != 1
+        or not keep.size
+        or keep.dtype.kind not in "iu"
         or not np.isin(keep, range(len(goal))).all()
     ):
         raise ValueError(f"keep must name tasks among 0..{len(goal) - 1}, got {keep}")

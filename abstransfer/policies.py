@@ -172,8 +172,9 @@ def count_votes(policy: np.ndarray, rho: np.ndarray, n_abstract: int) -> np.ndar
             "policy must have shape (S, A) and rho shape (S,), "
             f"got {policy.shape} and {rho.shape}"
         )
-    if len(rho) and not 0 <= rho.min() <= rho.max() < n_abstract:
-        raise ValueError(f"rho must lie in 0..{n_abstract - 1}, got {rho.max()}")
+    outside = rho[(rho < 0) | (rho >= n_abstract)]
+    if outside.size:
+        raise ValueError(f"rho must lie in 0..{n_abstract - 1}, got {outside[0]}")
     votes = np.zeros((n_abstract, policy.shape[1]))
     np.add.at(votes, rho, policy)
     return votes
@@ -195,6 +196,7 @@ def beta_policy(abstract_policy: np.ndarray, beta: float) -> np.ndarray:
         raise ValueError(f"beta must be at least 0, got {beta}")
     p = np.asarray(abstract_policy, dtype=float)
     ratio = p / p.max(axis=1, keepdims=True)  # in 0..1: no overflow, however large beta
+    ratio[ratio > 1 - 1e-9] = 1.0  # sums of votes that differ by rounding tie
     weight = np.where(ratio > 0, ratio**beta, 0.0)
     return weight / weight.sum(axis=1, keepdims=True)
 
@@ -217,6 +219,10 @@ def unseen_share(rho: np.ndarray, voted: np.ndarray) -> float:
 
 
 def _normalized(votes: np.ndarray, fallback: np.ndarray) -> np.ndarray:
+    if np.shape(fallback) != votes.shape:
+        raise ValueError(
+            f"fallback must have shape {votes.shape}, got {np.shape(fallback)}"
+        )
     total = votes.sum(axis=1, keepdims=True)
     share = votes / np.where(total > 0, total, 1)
     return np.where(total > 0, share, uniform_policy(fallback))

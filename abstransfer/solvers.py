@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 
 from .mdp import MDP, check_policy
 
-TIE = 1e-9  # actions whose values differ by less count as equally good
+TIE = 1e-9  # actions whose values differ by less, in rewards, are equally good
 
 
 def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
@@ -119,8 +119,8 @@ def optimal_values(mdp: MDP) -> np.ndarray:
     Return the optimal value of every state, exact, shape (S,).
 
     Policy iteration, started from the values of the uniform policy.  An action
-    is changed only for one better by more than `TIE`: equally good ones would
-    swap for ever on rounding.
+    is changed only for one better by more than `TIE` times the largest reward:
+    equally good ones would swap for ever on rounding.
 
     >>> corridor = MDP([[[0], [1]], [[0], [2]], [[2], [2]]], np.ones((3, 2, 1)),
     ...                [0, 0, 1], [False, False, True], 0.5)
@@ -134,7 +134,7 @@ def optimal_values(mdp: MDP) -> np.ndarray:
     while True:
         v = evaluate_policy(mdp, np.eye(mdp.n_actions)[best])
         q = action_values(mdp, v)
-        better = q.max(axis=1) > q[states, best] + TIE
+        better = q.max(axis=1) > q[states, best] + _tie(mdp)
         if not better.any():
             return v
         best = np.where(better, q.argmax(axis=1), best)
@@ -147,7 +147,8 @@ def optimal_actions(mdp: MDP, v: np.ndarray) -> np.ndarray:
     Returns
     -------
     optimal : ndarray of bool, shape (S, A)
-        Every action within `TIE` of the best; none in a terminal state.
+        Every action within `TIE` times the largest reward of the best; none in
+        a terminal state.
 
     Examples
     --------
@@ -160,6 +161,10 @@ def optimal_actions(mdp: MDP, v: np.ndarray) -> np.ndarray:
            [False, False]])
     """
     q = action_values(mdp, v)
-    optimal = q >= q.max(axis=1, keepdims=True) - TIE
+    optimal = q >= q.max(axis=1, keepdims=True) - _tie(mdp)
     optimal[mdp.terminal] = False
     return optimal
+
+
+def _tie(mdp: MDP) -> float:
+    return TIE * np.abs(mdp.reward).max()

@@ -61,7 +61,8 @@ def abstract_policies(
     Raises
     ------
     ValueError
-        If a builder is unknown.
+        If a builder is unknown, or ``"grad"`` is asked for where actions are
+        masked and the features do not tell which ones.
 
     Examples
     --------
@@ -88,6 +89,11 @@ def abstract_policies(
         policies["nd"] = induce_nondeterministic(votes, rho, possible)
         policies["prob"] = induce_probabilistic(votes, rho, possible)
     if "grad" in builders:
+        if (possible[rho] & ~mdp.allowed)[~mdp.terminal].any():
+            raise ValueError(
+                'builders must not hold "grad" where the features do not tell which '
+                'actions are masked; make the tasks with unavailable="wait"'
+            )
         policies["grad"] = absprob_pi(mdp, rho, possible, progress=progress).policy
     return {builder: policies[builder] for builder in builders}
 
