@@ -63,8 +63,9 @@ test: .venv/.book system
 system:
 ifdef CI
 	@if ! { command -v chromium && command -v node; } >/dev/null; then \
-	  apt-get update -qq && \
-	  apt-get install -y -qq --no-install-recommends chromium nodejs fonts-dejavu; fi
+	  as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
+	  $$as_root apt-get update -qq && \
+	  $$as_root apt-get install -y -qq --no-install-recommends chromium nodejs fonts-dejavu; fi
 endif
 
 lab: .venv/.lab

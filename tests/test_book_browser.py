@@ -86,8 +86,9 @@ def test_the_search_finds_a_page(visit):
 def test_pictures_are_legible_in_the_dark(visit, name):
     """A figure stands on a light card, whatever the colour of the page."""
     page = visit(color_scheme="dark").open(name)
-    grounds = page.locator("article img").evaluate_all(
-        "images => images.map(i => getComputedStyle(i).backgroundColor)"
+    looks = page.locator("article img").evaluate_all(
+        "images => images.map(i => getComputedStyle(i))"
+        ".map(style => style.backgroundColor + ' ' + style.filter)"
     )
 
-    assert set(grounds) <= {"rgb(255, 255, 255)"}
+    assert set(looks) <= {"rgb(255, 255, 255) none"}
