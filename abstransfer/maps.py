@@ -208,10 +208,10 @@ def parse_map(text: str) -> Map:
 
     Examples
     --------
-    >>> parse_map("+---+\\n|  *|\\n+- -+")
+    >>> parse_map("+---+\\n|  *|\\n+-- +")
     Traceback (most recent call last):
         ...
-    ValueError: row 3, column 3: the border has a hole; put a wall there
+    ValueError: row 3, column 4: the border has a hole; put a wall there
     """
     if not isinstance(text, str):
         raise ValueError(f"text of a map must be a str, got {type(text).__name__}")
