@@ -14,10 +14,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from inspect import signature
 
-from ._alt import describe_ladder, describe_map
-from ._charts import plot_ladder
+from ._describe_runs import describe_boxes, describe_curves, describe_tau
 from ._figure import Picture, draw_picture
-from ._plot_map import plot_features, plot_map, plot_policy, plot_values
+from ._plot_ladder import describe_ladder, plot_ladder
+from ._plot_map import describe_map, describe_values, plot_map, plot_values
+from ._plot_runs import plot_boxes, plot_curves, plot_tau
+from ._plot_tasks import (
+    describe_features,
+    describe_policy,
+    plot_features,
+    plot_policy,
+)
 from ._style import PALETTE, WIDTH, ArmStyle, arm_style
 
 __all__ = [
@@ -25,18 +32,36 @@ __all__ = [
     "ArmStyle",
     "Picture",
     "arm_style",
+    "describe_boxes",
+    "describe_curves",
+    "describe_features",
     "describe_ladder",
     "describe_map",
+    "describe_policy",
+    "describe_tau",
+    "describe_values",
     "figure",
+    "plot_boxes",
+    "plot_curves",
     "plot_features",
     "plot_ladder",
     "plot_map",
     "plot_policy",
+    "plot_tau",
     "plot_values",
 ]
 
-DESCRIBE = {plot_map: describe_map, plot_ladder: describe_ladder}
-HEIGHT = {plot_ladder: 4.2, plot_map: WIDTH, plot_values: WIDTH, plot_policy: WIDTH}
+DESCRIBE = {
+    plot_boxes: describe_boxes,
+    plot_curves: describe_curves,
+    plot_features: describe_features,
+    plot_ladder: describe_ladder,
+    plot_map: describe_map,
+    plot_policy: describe_policy,
+    plot_tau: describe_tau,
+    plot_values: describe_values,
+}
+OF_BUILDINGS = (plot_features, plot_map, plot_policy, plot_values)
 
 
 def figure(
@@ -72,7 +97,7 @@ def figure(
     --------
     >>> from abstransfer.maps import parse_map
     >>> figure(plot_map, parse_map("+---+\\n|.d*|\\n+---+"))
-    A building of 1 by 2 cells: 1 room with 1 goal, 1 door, and a corridor of 1 cell.
+    Building of 1 by 2 cells: 1 room, 1 goal, 1 door, a corridor of 1 cell.
     """
     if alt is None:
         if plot not in DESCRIBE:
@@ -80,7 +105,7 @@ def figure(
         describe = DESCRIBE[plot]
         known = signature(describe).parameters
         alt = describe(*data, **{k: v for k, v in options.items() if k in known})
-    size = size or (WIDTH, HEIGHT.get(plot, 3.4))
+    size = size or (WIDTH, WIDTH if plot in OF_BUILDINGS else 4.2)
     return draw_picture(
         lambda ax: plot(*data, ax=ax, **options), alt, size=size, panels=panels
     )

@@ -1,8 +1,8 @@
-"""Charts of results: the ladder of Table 1, curves, boxes, and tau."""
+"""Table 1 as a ladder, with its alt text."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -69,6 +69,23 @@ def plot_ladder(result: Mapping, ax=None, *, paper: Mapping | None = PAPER, rows
     else:
         ax.set_xlabel("mean value of all cells and tasks")
     return ax
+
+
+def describe_ladder(
+    result: Mapping, *, paper: Mapping | None = PAPER, rows: Sequence[str] = ROWS
+) -> str:
+    """Return the alt text of :func:`plot_ladder`: the rungs from the top, the order."""
+    columns = ladder_columns(result, rows)
+    text, same = "Mean value by policy, best first.", True
+    for name, column in columns.items():
+        order = sorted(rows, key=lambda row: -column[row])
+        rungs = [f"{arm_style(row).name} {number(column[row])}" for row in order]
+        text += f" {name.capitalize()}: {', '.join(rungs)}."
+        theirs = (paper or {}).get(name, {})
+        same &= order == sorted(rows, key=lambda row: -theirs.get(row, np.inf))
+    if paper:
+        text += f" The order {'is' if same else 'is not'} the paper's."
+    return text
 
 
 def ladder_columns(result: Mapping, rows) -> dict[str, dict[str, float]]:
