@@ -10,11 +10,12 @@ from abstransfer.doctor import check_node
 SCRIPTS = sorted((ROOT / "tests" / "js").glob("*.test.mjs"))
 
 
-@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
-def test_a_script_passes_its_tests(script):
+def test_the_scripts_pass_their_tests():
+    if not SCRIPTS:
+        pytest.skip("the book has no scenes yet")
     node = check_node()
     if not node.ok:
         unavailable(node.remedy)
 
-    run = subprocess.run(["node", "--test", script], capture_output=True, text=True)
+    run = subprocess.run(["node", "--test", *SCRIPTS], capture_output=True, text=True)
     assert run.returncode == 0, run.stdout + run.stderr
