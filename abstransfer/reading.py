@@ -1,0 +1,151 @@
+"""
+The reading of the paper: what it says of the problem, and what it leaves open.
+
+Here a reading becomes tasks, and the advice that is carried to them.
+Page 3 of the book teaches what the choices do.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields
+from functools import lru_cache, partial
+
+import numpy as np
+
+from ._paths import DATA
+from .maps import Map, read_map
+from .navigation import NavigationTasks, navigation_tasks
+from .policies import restrict_policy
+from .solvers import evaluate_policy
+from .table1 import BUILDERS, abstract_policies
+
+GUIDES = ("rand", *BUILDERS)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """
+    The learning problem: what the paper says, and what it leaves open.
+
+    Parameters
+    ----------
+    source, target : Map
+        Where the policies come from, and where they give advice.
+    reward : {"goal", "cost"}
+        ``"goal"``: 1 on reaching the goal, else 0; the convention under which
+        the paper's figures come out.  ``"cost"``: -1 a step, the paper's rule.
+    unavailable, success
+        As for :func:`~abstransfer.navigation.navigation_tasks`.
+    q0, alpha, epsilon, gamma, max_episode
+        As for :func:`~abstransfer.learning.q_learning`.
+
+    Raises
+    ------
+    ValueError
+        Naming what is out of range, before a step is run.
+
+    Examples
+    --------
+    >>> Reading(epsilon=1.5)
+    Traceback (most recent call last):
+        ...
+    ValueError: epsilon must lie in 0..1, got 1.5
+    """
+
+    source: Map = field(default_factory=partial(read_map, "source"))
+    target: Map = field(default_factory=partial(read_map, "target"))
+    reward: str = "goal"
+    unavailable: str = "wait"
+    success: float = 0.9
+    q0: float = 0.0
+    alpha: float = 0.1
+    epsilon: float = 0.1
+    gamma: float = 0.9
+    max_episode: int = 5_000
+
+    def __post_init__(self):
+        for name, known in (
+            ("reward", ("goal", "cost")),
+            ("unavailable", ("wait", "masked")),
+        ):
+            if getattr(self, name) not in known:
+                raise ValueError(
+                    f"{name} must be one of {known}, got {getattr(self, name)!r}"
+                )
+        for name, rule, ok in (
+            ("success", "lie in 0..1, and not be 0", 0 < self.success <= 1),
+            ("q0", "be finite", math.isfinite(self.q0)),
+            ("alpha", "lie in 0..1", 0 <= self.alpha <= 1),
+            ("epsilon", "lie in 0..1", 0 <= self.epsilon <= 1),
+            ("gamma", "lie in 0..1, and not be 1", 0 <= self.gamma < 1),
+            ("max_episode", "be at least 1", self.max_episode >= 1),
+        ):
+            if not ok:
+                raise ValueError(f"{name} must {rule}, got {getattr(self, name)}")
+
+    def record(self) -> dict:
+        """Return everything that makes this reading, for JSON."""
+        numbers = {f.name: getattr(self, f.name) for f in fields(self)[2:]}
+        maps = {"source": self.source, "target": self.target}
+        return {name: _map_record(map_) for name, map_ in maps.items()} | numbers
+
+
+@lru_cache(maxsize=8)
+def target_tasks(reading: Reading) -> NavigationTasks:
+    """Return the tasks to be learned; made once per reading and process."""
+    return navigation_tasks(
+        reading.target,
+        success=reading.success,
+        reward=reading.reward,
+        unavailable=reading.unavailable,
+    )
+
+
+def build_guides(reading: Reading, names: Iterable[str]) -> dict[str, np.ndarray]:
+    """
+    Return the abstract policies (Z, A) of these names, built in the source.
+
+    They are built, and driven, with discount 0.99 and a cost of 1 a step,
+    whatever reward the learner gets.
+
+    >>> build_guides(Reading(), ["rand"])["rand"][0]
+    array([0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125])
+    """
+    names = list(names)
+    source = navigation_tasks(
+        reading.source, success=reading.success, unavailable=reading.unavailable
+    )
+    guides = abstract_policies(source, [name for name in names if name != "rand"])
+    if "rand" in names:
+        guides["rand"] = np.full(source.possible.shape, 1 / len(source.actions))
+    return guides
+
+
+def executed_values(reading: Reading, guides: dict[str, np.ndarray]) -> dict:
+    """Return the value of driving by each guide in the target, as in Table 1."""
+    tasks = navigation_tasks(
+        reading.target, success=reading.success, unavailable=reading.unavailable
+    )
+    allowed = tasks.mdp.allowed
+    policies = {
+        name: restrict_policy(p[tasks.rho], allowed) for name, p in guides.items()
+    }
+    return {
+        name: float(evaluate_policy(tasks.mdp, policy).mean())
+        for name, policy in policies.items()
+    }
+
+
+def digest(data: bytes) -> str:
+    """Return a short fingerprint of bytes."""
+    return hashlib.sha256(data).hexdigest()[:16]
+
+
+def _map_record(map_: Map) -> dict:
+    """Return the name of a map that comes with the package, and a fingerprint."""
+    shipped = (path.stem for path in sorted((DATA / "maps").glob("*.txt")))
+    name = next((name for name in shipped if read_map(name) == map_), "own map")
+    return {"name": name, "sha256": digest(str(map_).encode())}
