@@ -114,7 +114,9 @@ def _run_table1(arguments) -> int:
     )
     source = tasks(read_map(arguments.source))
     target = None if arguments.source_only else tasks(read_map(arguments.target))
-    progress = partial(tqdm, desc="AbsProb-PI", unit="iteration", leave=False, disable=None)
+    progress = partial(
+        tqdm, desc="AbsProb-PI", unit="iteration", leave=False, disable=None
+    )
     result = table1(source, target, progress=progress)
     if arguments.json:
         print(json.dumps(result, indent=2))
