@@ -15,12 +15,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
+from zlib import crc32
 
 from ._style import RC, WIDTH
 
 SHORTEST, LONGEST = 40, 300  # characters of an alt text
 NO_METADATA = dict.fromkeys(("Creator", "Date", "Format", "Type"))
 TAG = re.compile(r"<[^>]*>")
+ID = re.compile(r'( id="|url\(#|href="#)([^"\)]*)')
 LONG_NUMBER = re.compile(r"-?\d+\.\d{3,}(?![\d.])")
 
 
@@ -109,11 +111,27 @@ def _settled(svg: str, alt: str) -> str:
     """Drop the file's preamble, round its coordinates, name what it shows."""
     svg = svg[svg.index("<svg") :].strip()
     svg = TAG.sub(lambda tag: LONG_NUMBER.sub(_rounded, tag[0]), svg)
-    svg = re.sub(r"[ \t]*\n[ \t]*", "\n", svg)
+    svg = _renamed(re.sub(r"[ \t]*\n[ \t]*", "\n", svg))
     named = f'<svg role="img" aria-label="{escape(alt)}" '
     title = f"<title>{escape(alt, quote=False)}</title>"
     head, rest = svg.split(">", 1)
     return f"{named}{head.removeprefix('<svg ')}>\n{title}{rest}"
+
+
+def _renamed(svg: str) -> str:
+    """
+    Number the ids that are used, and drop the others.
+
+    Those of matplotlib depend on the last bit of each coordinate.  A checksum
+    of the picture keeps them apart from those of others on the same page.
+    """
+    used = set(re.findall(r"#([\w-]+)", svg))
+    ids = [name for name in re.findall(r' id="([^"]*)"', svg) if name in used]
+    numbers = {name: str(i) for i, name in enumerate(ids)}
+    svg = ID.sub(lambda m: f"{m[1]}{numbers[m[2]]}" if m[2] in numbers else m[0], svg)
+    svg = re.sub(r' id="[^"]*[^"\d][^"]*"', "", svg)
+    prefix = f"p{crc32(svg.encode()):08x}-"
+    return re.sub(r'( id="|url\(#|href="#)(?=\d+["\)])', rf"\g<1>{prefix}", svg)
 
 
 def _rounded(digits: re.Match) -> str:

@@ -74,17 +74,26 @@ def plot_ladder(result: Mapping, ax=None, *, paper: Mapping | None = PAPER, rows
 def describe_ladder(
     result: Mapping, *, paper: Mapping | None = PAPER, rows: Sequence[str] = ROWS
 ) -> str:
-    """Return the alt text of :func:`plot_ladder`: the rungs from the top, the order."""
+    """
+    Return the alt text of :func:`plot_ladder`: the rungs from the top, the order.
+
+    >>> describe_ladder({"source": {"rand": -88.7, "nd": -44.1, "optimal": -14.0}},
+    ...                 rows=("rand", "nd", "optimal"))
+    "Mean value by policy, best first. Source: optimal −14.0, ND −44.1, random −88.7.
+    The order is the paper's."
+    """
     columns = ladder_columns(result, rows)
-    text, same = "Mean value by policy, best first.", True
+    text, same = "Mean value by policy, best first.", []
     for name, column in columns.items():
         order = sorted(rows, key=lambda row: -column[row])
         rungs = [f"{arm_style(row).name} {number(column[row])}" for row in order]
         text += f" {name.capitalize()}: {', '.join(rungs)}."
         theirs = (paper or {}).get(name, {})
-        same &= order == sorted(rows, key=lambda row: -theirs.get(row, np.inf))
-    if paper:
-        text += f" The order {'is' if same else 'is not'} the paper's."
+        known = [row for row in order if row in theirs]
+        if len(known) > 1:
+            same.append(known == sorted(known, key=theirs.get, reverse=True))
+    if same:
+        text += f" The order {'is' if all(same) else 'is not'} the paper's."
     return text
 
 

@@ -14,6 +14,7 @@ from ._style import COLOR, WIDTH, new_axes, number
 from .maps import CORRIDOR, Map
 
 N_SHADES = 40
+BLACK_ON = 19  # the first shade on which black reads better than white
 
 
 def plot_map(map_: Map, ax=None, *, goal: int | None = None, fill: bool = True):
@@ -85,12 +86,14 @@ def plot_values(
     if not numbers:
         bar = ax.figure.colorbar(shades, cax=ax.inset_axes([1.02, 0.05, 0.03, 0.9]))
         bar.outline.set_visible(False)
-        digits = 0 if shades.norm.vmax - shades.norm.vmin > 5 else 2
+        whole = shades.norm.vmax - shades.norm.vmin > 5
+        digits = 0 if whole else 2
+        bar.ax.locator_params(axis="y", nbins=5, integer=whole)
         bar.ax.yaxis.set_major_formatter(lambda x, _: number(x, digits))
         return ax
     ax.lines[-1].remove()  # a star would hide the number of its cell
     for cell in np.flatnonzero(np.isfinite(v)):
-        color = "black" if shades.norm(v[cell]) > 0.45 else "white"
+        color = "black" if level[cell] >= BLACK_ON else "white"
         print_in(ax, map_, cell, number(v[cell], 0), color)
     return ax
 
@@ -124,7 +127,15 @@ def describe_map(map_: Map, *, goal: int | None = None) -> str:
 
 
 def describe_values(map_: Map, v: np.ndarray, *, goal: int | None = None) -> str:
-    """Return the alt text of :func:`plot_values`: the range, and where its ends are."""
+    """
+    Return the alt text of :func:`plot_values`: the range, and where its ends are.
+
+    >>> from abstransfer.maps import parse_map
+    >>> building = parse_map("+---+\\n|.d*|\\n+---+")
+    >>> describe_values(building, np.array([-1.1, 0.0]))
+    'Building of 1 by 2 cells: values rise from −1.100 in row 1, column 1 to 0.000 in
+    row 1, column 2; half of them lie below −0.550.'
+    """
     v = cell_array(v, map_, "v")
     height, width = map_.shape
     low, high = np.nanargmin(v), np.nanargmax(v)
