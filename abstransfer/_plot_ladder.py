@@ -33,41 +33,36 @@ def plot_ladder(result: Mapping, ax=None, *, paper: Mapping | None = PAPER, rows
     ax : matplotlib Axes
     """
     columns = ladder_columns(result, rows)
-    ax = new_axes(ax, (WIDTH, 4.2))
     ours = np.array([[columns[c][row] for row in rows] for c in columns])
-    theirs = [
-        [(paper or {}).get(c, {}).get(row, np.nan) for row in rows] for c in columns
-    ]
+    papers = [(paper or {}).get(name, {}) for name in columns]
+    theirs = np.array([[column.get(row, np.nan) for row in rows] for column in papers])
+    ax = new_axes(ax, (WIDTH, 4.2))
     low, high = np.nanmin([ours, theirs]), np.nanmax([ours, theirs])
     pad = 0.08 * max(high - low, 1.0)
-    ax.set_ylim(low - pad, high + 2.2 * pad)
+    ax.set(ylim=(low - pad, high + 2.2 * pad), xlim=(-0.8, len(columns) - 0.2))
+    x = np.arange(len(columns))[:, None]
+    outward = np.where((x == 0) & (len(columns) > 1), -1, 1)
+    for name, column in zip(columns, x[:, 0], strict=True):
+        ax.plot([column] * 2, [low - pad, high + pad], color="#D0D0D0", zorder=0)
+        ax.text(column, high + 1.3 * pad, BUILDINGS[name], ha="center", va="bottom")
     gap = label_gap(ax)
-    for x, column in enumerate(columns):
-        ax.plot([x, x], [low - pad, high + pad], color="#D0D0D0", linewidth=1, zorder=0)
-        ax.text(x, high + 1.3 * pad, BUILDINGS[column], ha="center", va="bottom")
-        left = x == 0 and len(columns) > 1
-        for row, place, y in zip(rows, spread(ours[x], gap), ours[x], strict=True):
-            _rung_label(ax, x, y, place, row, left)
+    at = x + outward * _aside(ours, gap)
+    inside = x - outward * (0.13 + _aside(theirs, gap))
     for i, row in enumerate(rows):
         style = arm_style(row)
         mark = {"marker": style.marker, "color": style.color, "markersize": 9}
-        x = np.arange(len(columns))
-        ax.plot(x, ours[:, i], linewidth=1, **mark, zorder=2)
-        inside = x + np.where(x == 0, 0.13, -0.13) * (len(columns) > 1 or -1)
-        hollow = {
-            "markerfacecolor": "none",
-            "markeredgewidth": 1.4,
-            "linestyle": "none",
-        }
-        ax.plot(inside, np.array(theirs)[:, i], **mark | hollow, zorder=3)
-    ax.set_xlim(-0.75, len(columns) - 0.25)
-    ax.set_xticks([])
-    ax.set_yticks([])
+        ax.plot(at[:, i], ours[:, i], linewidth=1, **mark, zorder=2)
+        mark |= {"markerfacecolor": "none", "markeredgewidth": 1.4, "linestyle": "none"}
+        ax.plot(inside[:, i], theirs[:, i], **mark, zorder=3)
+    for column, side in enumerate(outward[:, 0]):
+        places = spread(ours[column], gap)
+        for i, row in enumerate(rows):
+            rung = at[column, i], ours[column, i]
+            _rung_label(ax, rung, (column + 0.2 * side, places[i]), row)
+    ax.set(xticks=[], yticks=[])
     ax.spines[["left", "bottom"]].set_visible(False)
-    if paper:
-        ax.set_xlabel("mean value; filled marks: here, hollow marks: the paper")
-    else:
-        ax.set_xlabel("mean value of all cells and tasks")
+    marks = "; filled marks: here, hollow marks: the paper" if paper else ""
+    ax.set_xlabel(f"mean value{marks}")
     return ax
 
 
@@ -109,15 +104,25 @@ def ladder_columns(result: Mapping, rows) -> dict[str, dict[str, float]]:
     return columns
 
 
-def _rung_label(ax, x, y, place, row, left):
-    """Print name and value beside a rung; a thin line leads there if they moved."""
+def _aside(y: np.ndarray, gap: float) -> np.ndarray:
+    """Return how far marks, by column and row, step aside to show those behind."""
+    aside = np.zeros(y.shape)
+    for column, order in enumerate(np.argsort(y, axis=1)):
+        for below, mark in zip(order, order[1:], strict=False):
+            close = y[column, mark] - y[column, below] < 0.8 * gap
+            aside[column, mark] = 0.08 if close and not aside[column, below] else 0
+    return aside
+
+
+def _rung_label(ax, rung: tuple, place: tuple, row: str):
+    """Print name and value of a rung (x, y) at a place; a thin line joins them."""
     style = arm_style(row)
-    text = (style.name, number(y)) if left else (number(y), style.name)
-    side = -1 if left else 1
+    left = place[0] < rung[0]
+    words = [number(rung[1]), style.name]
     ax.annotate(
-        "  ".join(text),
-        (x, y),
-        (x + 0.16 * side, place),
+        "  ".join(words[::-1] if left else words),
+        rung,
+        place,
         color=style.color,
         fontsize=SMALL,
         ha="right" if left else "left",

@@ -15,8 +15,8 @@ from matplotlib.text import Text
 
 from abstransfer import plotting
 from abstransfer._plot_map import BLACK_ON, N_SHADES, _shades
-from abstransfer._plot_tasks import abstract_ranks, walking_distance
 from abstransfer._style import MARKS, number, spread
+from abstransfer._task_cells import abstract_ranks, walking_distance
 from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import navigation_tasks
 from abstransfer.table1 import PAPER, ROWS
@@ -417,6 +417,15 @@ def test_ours_are_filled_marks_and_the_papers_hollow_ones(ax):
 
     assert len(marked) == 10
     assert [line.get_ydata()[0] for line in hollow] == list(PAPER["source"].values())
+
+
+def test_a_mark_steps_aside_where_it_would_hide_another(ax):
+    plotting.plot_ladder(ladder(-90, -50, -40.1, -40, -10), ax, paper=None)
+    marks = {line.get_marker(): line.get_xdata()[0] for line in ax.lines[1::2]}
+    nd, prob, grad = (marks[plotting.arm_style(row).marker] for row in ROWS[1:4])
+
+    assert nd == prob == 0
+    assert abs(grad) >= 0.08
 
 
 @pytest.mark.parametrize(
