@@ -130,7 +130,7 @@ def random_is_late_but_competes(results: Results, rng) -> Iterator[Finding]:
     for strategy in STRATEGIES:
         arm = f"rand-{strategy}"
         effect = relative_gain(level[arm], level[best], rng=rng)
-        text = f"{arm} over {best}, final level"
+        text = f"{arm} over the abstract arm that ends best"
         yield Finding(text, effect, "ratio", judge(effect, -COMPETES))
     window = results.record["parameters"]["window"]
     for strategy in STRATEGIES:

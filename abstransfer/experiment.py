@@ -1,0 +1,155 @@
+"""
+Experiments: many runs of many arms, on as many workers as there are.
+
+A run depends on its seed, its arm and the reading; not on the number of
+workers, their kind, or the order in which they finish.  Run i of every arm
+has the same seed (common random numbers), and the seeds that tune tau are
+none of those that report.  Page 9 of the book teaches this module.
+"""
+
+from __future__ import annotations
+
+import platform
+import time
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Executor
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+
+from .arms import ARMS, Arm, Scale
+from .plan import SEED, Plan, differences, make_jobs, make_plan, parameters
+from .reading import Reading, executed_values
+from .results import (
+    TABLE,
+    Results,
+    load_parts,
+    load_results,
+    read_record,
+    remove_parts,
+    save_part,
+    save_results,
+    write_record,
+)
+from .workers import run_jobs
+
+
+def run_experiment(
+    arms: Iterable[Arm] = ARMS,
+    reading: Reading | None = None,
+    *,
+    scale: str | Scale = "paper",
+    n_runs: int = 50,
+    seed: int = SEED,
+    stream: str = "report",
+    guides: Mapping[str, np.ndarray] | None = None,
+    executor: Executor | None = None,
+    n_workers: int | None = None,
+    out: str | Path | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
+) -> Results:
+    """
+    Run every arm N times, and return the goals per window.
+
+    Parameters
+    ----------
+    arms : iterable of Arm
+    reading : Reading, optional
+        By default the paper's maps, with reward ``"goal"``.
+    scale : {"page", "class", "paper"} or Scale
+        Steps of a run and of a window.  The problem does not shrink with them:
+        at page scale a run sees a state-action pair 7 times in the mean, not
+        200.  So it shows the early part of learning only, and a tau that is
+        best at paper scale need not be so here.
+    n_runs : int, default 50
+    seed : int
+        Run i draws from ``SeedSequence(seed, spawn_key=(stream, i))``.
+    stream : {"report", "tune"}
+        Which seeds: no run that tunes tau is one that reports.
+    guides : dict from name to ndarray (Z, A), optional
+        Abstract policies for arms whose guide is not one of GUIDES.
+    executor : concurrent.futures.Executor, optional
+        Threads, Dask's ``client.get_executor()``, ...; by default `n_workers`
+        processes on this machine, one for each processor.
+    out : path, optional
+        Folder to store in.  An interrupted experiment is resumed from there; one
+        that has finished is read from there.
+    on_progress : callable, optional
+        Called with the steps done and to do, at first and after every job.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    ValueError
+        If an argument is bad, or `out` holds another experiment; named.
+    ChildProcessError
+        If a worker died.
+    """
+    plan = make_plan(
+        arms, reading, scale, n_runs, seed=seed, stream=stream, guides=guides
+    )
+    if n_workers is not None and n_workers < 1:
+        raise ValueError(f"n_workers must be at least 1, got {n_workers}")
+    folder = None if out is None else Path(out)
+    if folder and _open(folder, plan):
+        return load_results(folder)
+
+    goals = np.zeros(plan.shape, dtype=np.int64)
+    done, seconds = np.zeros(plan.shape[:2], dtype=bool), [0.0]
+    if folder:
+        done, seconds[0] = load_parts(folder, goals)
+    resumed, began = done.any(), time.perf_counter()
+    on_progress = on_progress or (lambda done, total: None)
+    on_progress(int(done.sum()) * plan.scale.steps, plan.n_steps)
+
+    def keep(key, part, spent):
+        arm, run = key
+        if folder:
+            save_part(folder, arm, run, part, spent)
+        goals[arm, run : run + len(part)] = part
+        done[arm, run : run + len(part)] = True
+        seconds.append(spent)
+        on_progress(int(done.sum()) * plan.scale.steps, plan.n_steps)
+
+    run_jobs(dict(make_jobs(plan, done)), executor, n_workers, keep)
+    wall = None if resumed else time.perf_counter() - began
+    results = Results(plan.arms, goals, _record(plan, sum(seconds), wall))
+    if folder:
+        save_results(folder, results)
+        remove_parts(folder)
+    return results
+
+
+def _open(folder: Path, plan: Plan) -> bool:
+    """Claim a folder for a plan; return whether its results are there already."""
+    record, wanted = read_record(folder), parameters(plan)
+    if record is None:
+        write_record(folder, {"parameters": wanted})
+        return False
+    found = list(differences(record.get("parameters", {}), wanted))
+    if found:
+        raise ValueError(
+            f"{folder} holds another experiment, so nothing was run; "
+            + "; ".join(found[:3])
+        )
+    return (folder / TABLE).is_file()
+
+
+def _record(plan: Plan, seconds: float, wall: float | None) -> dict:
+    """Return what made the results; no path, no name of a machine."""
+    packages = ("abstransfer", "numpy", "scipy", "numba")
+    return {
+        "parameters": parameters(plan),
+        "executed": executed_values(plan.reading, plan.guides),
+        "seconds": {
+            "cores": round(seconds, 2),
+            "wall": wall and round(wall, 2),  # None if it was interrupted
+            "ns_per_step": round(1e9 * seconds / plan.n_steps, 2),
+        },
+        "versions": {"python": platform.python_version()}
+        | {package: metadata.version(package) for package in packages},
+    }

@@ -1,0 +1,180 @@
+"""
+Figures 3 and 4, the table of tau and the ledger, from stored results.
+
+Page 9 of the book shows what this module writes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from .ledger import Entry, ledger
+from .plotting import figure, plot_boxes, plot_curves, plot_tau
+from .results import RECORD, Results, load_results
+from .stats import mean_interval
+from .tables import (
+    curves_table,
+    experiment_name,
+    is_grid,
+    ledger_table,
+    measures_table,
+    tau_table,
+    to_csv,
+    to_markdown,
+    totals_table,
+)
+from .tuning import tune
+
+SCALES = {"ratio": (100, " %"), "steps": (1e-6, " million steps")}
+
+
+def make_figures(
+    results: str | Path, out: str | Path, on_file: Callable[[Path], None] | None = None
+) -> list[Path]:
+    """
+    Make all figures and tables from the results in a folder, or in its folders.
+
+    An experiment in folder ``x`` becomes figure3-x, figure4-x and measures-x, a
+    grid of tau tau-x; ledger and tau collect all of them.
+
+    Returns the files written.  Raises FileNotFoundError where no experiment
+    has finished.
+    """
+    out = Path(out)
+    out.mkdir(parents=True, exist_ok=True)
+    written, entries, taus = [], {}, []
+
+    def write(name: str, content) -> None:
+        path = out / name
+        if isinstance(content, str):
+            path.write_text(content, encoding="utf-8", newline="\n")
+        else:
+            content.save(path)
+        written.append(path)
+        if on_file:
+            on_file(path)
+
+    for name, found in finished_experiments(results).items():
+        if is_grid(found):
+            tunings = tune(found)
+            rows = tau_table(tunings)
+            taus += [{"experiment": experiment_name(found)} | row for row in rows]
+            picture = tau_figure(found)
+            _write_picture(write, f"tau-{name}", picture)
+            continue
+        boxes, curves = figure3(found), figure4(found)
+        _write_picture(write, f"figure3-{name}", boxes)
+        write(f"figure3-{name}.csv", to_csv(totals_table(found)))
+        _write_picture(write, f"figure4-{name}", curves)
+        write(f"figure4-{name}.csv", to_csv(curves_table(found)))
+        write(f"measures-{name}.csv", to_csv(measures_table(found)))
+        entries[experiment_name(found)] = ledger(found)
+    if taus:
+        write("tau.csv", to_csv(taus))
+        write("tau.md", to_markdown(taus))
+    if entries:
+        rows = [
+            {"experiment": name} | row
+            for name, judged in entries.items()
+            for row in ledger_table(judged)
+        ]
+        write("ledger.csv", to_csv(rows))
+        write("ledger.md", ledger_text(entries))
+    return written
+
+
+def finished_experiments(folder: str | Path) -> dict[str, Results]:
+    """Return the finished experiments in a folder, or in its folders, by name."""
+    folder = Path(folder)
+    records = [folder / RECORD, *sorted(folder.glob(f"*/{RECORD}"))]
+    found = {}
+    for record in records:
+        if record.is_file():
+            try:
+                found[record.parent.resolve().name] = load_results(record.parent)
+            except FileNotFoundError:  # it has not finished
+                continue
+    if not found:
+        raise FileNotFoundError(
+            f"{folder}: no finished experiment here; make one with: "
+            "abstransfer experiment --out DIR"
+        )
+    return found
+
+
+def figure3(results: Results):
+    """Return the picture of Figure 3: box plots of the goals of a run."""
+    return figure(plot_boxes, {a.name: results.totals(a.name) for a in results.arms})
+
+
+def figure4(results: Results, *, rng=0):
+    """Return the picture of Figure 4: goals per window, means with bands."""
+    rng = np.random.default_rng(rng)
+    curves = {arm.name: results.curves(arm.name) for arm in results.arms}
+    bands = {name: mean_interval(x, rng=rng)[1:] for name, x in curves.items()}
+    window = results.record["parameters"]["window"]
+    return figure(plot_curves, curves, bands=bands, window=window)
+
+
+def tau_figure(results: Results):
+    """Return the picture of the grid: goals of a run by tau, with bands."""
+    tunings = tune(results)
+    totals = {
+        t.name: (t.taus, np.stack([results.totals(t.name, tau) for tau in t.taus]))
+        for t in tunings
+    }
+    bands = {t.name: (t.goals.low, t.goals.high) for t in tunings}
+    paper = {t.name: t.paper for t in tunings if t.paper}
+    return figure(plot_tau, totals, bands=bands, paper=paper)
+
+
+def ledger_text(entries: dict[str, tuple[Entry, ...]]) -> str:
+    """Return ledgers, by experiment, as Markdown: verdicts first, then findings."""
+    first = next(iter(entries.values()))
+    summary = [
+        {"claim": f"{entry.claim.key}. {entry.claim.title}"}
+        | {name: judged[i].verdict for name, judged in entries.items()}
+        for i, entry in enumerate(first)
+    ]
+    lines = ["# Ledger of claims", "", to_markdown(summary)]
+    for i, entry in enumerate(first):
+        claim = entry.claim
+        lines += [f"## {claim.key}. {claim.title}", "", f"> {claim.quote}", ""]
+        lines += [f"Test: {claim.test}", ""]
+        rows = [
+            {"finding": a.text + ("" if a.main else " (condition)")}
+            | {
+                n: f"{effect_text(e[i].findings[j])}: {e[i].findings[j].verdict}"
+                for n, e in entries.items()
+            }
+            for j, a in enumerate(entry.findings)
+        ]
+        lines.append(to_markdown(rows))
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def effect_text(finding) -> str:
+    """
+    Return an effect with its interval, in its unit.
+
+    >>> from abstransfer.stats import Interval
+    >>> from abstransfer.verdicts import HOLDS, Finding
+    >>> effect_text(Finding("", Interval(0.25, 0.24, 0.267), "ratio", HOLDS))
+    '+25.0 % [24.0, 26.7]'
+    """
+    factor, unit = SCALES.get(finding.unit, (1, f" {finding.unit}".rstrip()))
+    estimate, low, high = (factor * x for x in finding.effect)
+    digits = 0 if abs(estimate) >= 100 else 1 if abs(estimate) >= 1 or factor > 1 else 2
+    if finding.unit == "":
+        digits = 2
+    ends = f" [{low:.{digits}f}, {high:.{digits}f}]" if low < high else ""
+    return f"{estimate:+.{digits}f}{unit}{ends}"
+
+
+def _write_picture(write, name: str, picture) -> None:
+    for suffix in (".svg", ".png"):
+        write(name + suffix, picture)
+    write(name + ".txt", picture.alt + "\n")

@@ -1,0 +1,139 @@
+"""
+The plan of an experiment: everything it depends on, checked before a step is run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from operator import index
+from typing import NamedTuple
+
+import numpy as np
+
+from .arms import SCALES, Arm, Scale, check_arms
+from .reading import GUIDES, Reading, build_guides, digest
+from .workers import Job
+
+SEED = 2015  # the year of the paper
+STREAMS = {"report": 0, "tune": 1}
+CHUNK = 6  # runs in a job; they share the loop, so that none waits for memory alone
+
+
+class Plan(NamedTuple):
+    """An experiment, checked, before its first step."""
+
+    arms: tuple[Arm, ...]
+    reading: Reading
+    scale: Scale
+    n_runs: int
+    seed: int
+    stream: str
+    guides: dict[str, np.ndarray]  # abstract policies (Z, A)
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Shape of the goals: arms, N runs, B windows."""
+        return len(self.arms), self.n_runs, self.scale.steps // self.scale.window
+
+    @property
+    def n_steps(self) -> int:
+        """Steps of all runs together."""
+        return len(self.arms) * self.n_runs * self.scale.steps
+
+
+def make_plan(
+    arms: Iterable[Arm],
+    reading: Reading | None,
+    scale: str | Scale,
+    n_runs: int,
+    *,
+    seed: int = SEED,
+    stream: str = "report",
+    guides: Mapping[str, np.ndarray] | None = None,
+) -> Plan:
+    """Return the experiment, its guides built; arguments of :func:`run_experiment`."""
+    if isinstance(scale, str):
+        if scale not in SCALES:
+            raise ValueError(f"scale must be one of {tuple(SCALES)}, got {scale!r}")
+        scale = SCALES[scale]
+    if not 1 <= scale.window <= scale.steps or scale.steps % scale.window:
+        raise ValueError(f"scale must be made of whole windows, got {scale}")
+    n_runs, seed = index(n_runs), index(seed)
+    if n_runs < 1:
+        raise ValueError(f"n_runs must be at least 1, got {n_runs}")
+    if seed < 0:
+        raise ValueError(f"seed must be at least 0, got {seed}")
+    if stream not in STREAMS:
+        raise ValueError(f"stream must be one of {tuple(STREAMS)}, got {stream!r}")
+    arms, reading, guides = check_arms(arms), reading or Reading(), dict(guides or {})
+    wanted = {arm.guide: arm for arm in arms if arm.guide}
+    for name, arm in wanted.items():
+        if name not in (*GUIDES, *guides):
+            known = ", ".join((*GUIDES, *guides))
+            raise ValueError(
+                f"guide of arm {arm.name!r} must be one of {known}, got {name!r}"
+            )
+    built = build_guides(reading, [name for name in wanted if name not in guides])
+    guides = {name: (guides | built)[name] for name in wanted}
+    return Plan(arms, reading, scale, n_runs, seed, stream, guides)
+
+
+def parameters(plan: Plan) -> dict:
+    """Return all that the goals depend on, for JSON."""
+    return {
+        "reading": plan.reading.record(),
+        "steps": plan.scale.steps,
+        "window": plan.scale.window,
+        "arms": [
+            arm._asdict() | {"tau_steps": plan.scale.tau(arm)} for arm in plan.arms
+        ],
+        "runs": plan.n_runs,
+        "seed": plan.seed,
+        "stream": plan.stream,
+        # Rounded: the last digits depend on the machine that solved the source.
+        "guides": {
+            name: digest(np.round(policy + 0.0, 6).tobytes())
+            for name, policy in plan.guides.items()
+        },
+    }
+
+
+def make_jobs(plan: Plan, done: np.ndarray) -> Iterator[tuple[tuple[int, int], Job]]:
+    """Yield the jobs for runs that are not done (arms, N), by arm and first run."""
+    stream = STREAMS[plan.stream]
+    for a, arm in enumerate(plan.arms):
+        missing = np.flatnonzero(~done[a])
+        breaks = np.flatnonzero(np.diff(missing) != 1) + 1
+        for block in np.split(missing, breaks):
+            for i in range(0, len(block), CHUNK):
+                runs = block[i : i + CHUNK].tolist()
+                yield (
+                    (a, runs[0]),
+                    Job(
+                        plan.reading,
+                        arm.strategy,
+                        plan.scale.tau(arm),
+                        plan.guides.get(arm.guide),
+                        plan.scale,
+                        tuple(
+                            np.random.SeedSequence(plan.seed, spawn_key=(stream, run))
+                            for run in runs
+                        ),
+                    ),
+                )
+
+
+def differences(there, here, name="parameters") -> Iterator[str]:
+    """Yield where two records differ, by name."""
+    if isinstance(there, dict) and isinstance(here, dict):
+        for key in here | there:
+            yield from differences(there.get(key), here.get(key), f"{name}.{key}")
+    elif isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
+        for i, pair in enumerate(zip(there, here, strict=True)):
+            yield from differences(*pair, f"{name}[{i}]")
+    elif there != here:
+        yield f"{name} is {_short(there)} there and {_short(here)} here"
+
+
+def _short(value) -> str:
+    return f"a list of {len(value)}" if isinstance(value, list) else repr(value)

@@ -1,0 +1,126 @@
+"""
+Workers: one job on one core, and the pool of processes used by default.
+
+Any ``concurrent.futures`` executor can take the pool's place.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Hashable, Mapping
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from typing import NamedTuple
+
+import numpy as np
+
+from .arms import Scale
+from .policies import restrict_policy
+from .reading import Reading, target_tasks
+
+
+class Job(NamedTuple):
+    """Some runs of one arm: all that a worker needs to know."""
+
+    reading: Reading
+    strategy: str
+    tau: int  # steps of advice, at this scale
+    guide: np.ndarray | None  # (Z, A)
+    scale: Scale
+    seeds: tuple[np.random.SeedSequence, ...]  # one per run
+
+
+def run_job(
+    job: Job, on_progress: Callable[[int], None] | None = None
+) -> tuple[np.ndarray, float]:
+    """
+    Return the goals (n, B) of the runs of a job, and the core seconds they took.
+
+    `on_progress` is told the steps just taken, summed over the runs.
+    """
+    from .learning import q_learning_runs
+
+    tasks, reading = target_tasks(job.reading), job.reading
+    guide = None
+    if job.guide is not None:
+        guide = restrict_policy(job.guide[tasks.rho], tasks.mdp.allowed)
+    began = time.thread_time()
+    runs = q_learning_runs(
+        tasks.mdp,
+        job.scale.steps,
+        rngs=job.seeds,
+        on_progress=on_progress,
+        guide=guide,
+        strategy=job.strategy,
+        tau=job.tau,
+        alpha=reading.alpha,
+        epsilon=reading.epsilon,
+        gamma=reading.gamma,
+        q0=reading.q0,
+        max_episode=reading.max_episode,
+        window=job.scale.window,
+    )
+    return np.array([run.goals for run in runs]), time.thread_time() - began
+
+
+def run_jobs(
+    jobs: Mapping[Hashable, Job],
+    executor: Executor | None,
+    n_workers: int | None,
+    on_result: Callable[[Hashable, np.ndarray, float], None],
+) -> None:
+    """
+    Run all jobs; hand the key and the outcome of each to `on_result`, as it comes.
+
+    Without `executor`, a pool of processes is made, which ends with the call,
+    with an interrupt, and with this process, however that ends.
+    """
+    if not jobs:
+        return
+    if executor is not None:
+        _collect(jobs, executor, on_result)
+        return
+    # Not fork: it would copy threads in an unknown state.
+    context = multiprocessing.get_context("spawn")
+    reader, writer = context.Pipe(duplex=False)
+    n_workers = min(n_workers or os.cpu_count() or 1, len(jobs))
+    with ProcessPoolExecutor(
+        n_workers, context, initializer=_start_worker, initargs=(reader,)
+    ) as pool:
+        try:
+            _collect(jobs, pool, on_result)
+        except BrokenProcessPool:
+            raise ChildProcessError(
+                "a worker process died (is there enough memory?); what was done is "
+                "stored if there is a folder for it: run the same again"
+            ) from None
+        except BaseException:
+            writer.close()  # the workers stop at once, in the middle of their jobs
+            raise
+
+
+def _collect(jobs, executor, on_result) -> None:
+    futures = {executor.submit(run_job, job): key for key, job in jobs.items()}
+    try:
+        for future in as_completed(futures):
+            on_result(futures[future], *future.result())
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _start_worker(reader) -> None:
+    """Leave Ctrl-C to the parent, and end when it ends or closes the pipe."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def watch():
+        try:
+            reader.recv()
+        finally:
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

@@ -1,0 +1,175 @@
+"""Figures and tables made from stored results, without learning."""
+
+import csv
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from abstransfer.arms import ARMS, Scale, tau_cells
+from abstransfer.claims import CLAIMS
+from abstransfer.figures import effect_text, make_figures
+from abstransfer.plan import make_plan, parameters
+from abstransfer.reading import Reading
+from abstransfer.results import Results, save_results
+from abstransfer.stats import Interval
+from abstransfer.verdicts import HOLDS, Finding
+
+SCALE = Scale(30_000_000, 1_000_000)
+EXECUTED = {"rand": -97.0, "nd": -81.0, "prob": -70.0, "grad": -71.0}
+
+
+def made_up(arms, n_runs, reading):
+    """Results of arms whose goals jump at tau, by a level that is their own."""
+    rng, steps = np.random.default_rng(0), np.arange(30) * 1_000_000
+    goals = np.array(
+        [
+            rng.poisson(np.where(steps < arm.tau + 5e6, 20, 300 + 9 * i), (n_runs, 30))
+            for i, arm in enumerate(arms)
+        ]
+    )
+    plan = make_plan(arms, reading, SCALE, n_runs, guides=GUIDES)
+    record = {"parameters": parameters(plan), "executed": EXECUTED}
+    return Results(tuple(arms), goals, record)
+
+
+GUIDES = dict.fromkeys(("rand", "nd", "prob", "grad"), np.full((2048, 8), 1 / 8))
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """A folder with two experiments, a grid, and one that has not finished."""
+    folder = tmp_path_factory.mktemp("results")
+    goal = Reading()
+    save_results(folder / "goal", made_up(ARMS, 8, goal))
+    save_results(folder / "cost", made_up(ARMS, 8, replace(goal, reward="cost")))
+    save_results(folder / "grid", made_up(tau_cells(), 4, goal))
+    (folder / "unfinished").mkdir()
+    (folder / "unfinished" / "experiment.json").write_text('{"parameters": {}}')
+    return folder
+
+
+@pytest.fixture(scope="module")
+def made(results, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("figures")
+    written = make_figures(results, folder)
+    assert sorted(written) == sorted(folder.iterdir())
+    return folder
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_each_experiment_gets_its_figures_and_the_grid_its_own(made):
+    names = {path.name for path in made.iterdir()}
+    pictures = {
+        "figure3-goal",
+        "figure4-goal",
+        "figure3-cost",
+        "figure4-cost",
+        "tau-grid",
+    }
+    files = {f"{p}.{suffix}" for p in pictures for suffix in ("svg", "png", "txt")}
+
+    assert files <= names
+    assert {
+        "ledger.md",
+        "ledger.csv",
+        "tau.md",
+        "tau.csv",
+        "measures-goal.csv",
+    } <= names
+
+
+def test_figure_3_as_numbers_is_what_the_runs_say(made, results):
+    rows = {row["arm"]: row for row in read(made / "figure3-goal.csv")}
+    totals = made_up(ARMS, 8, Reading()).totals("nd-soft")
+
+    assert list(rows) == [arm.name for arm in ARMS]
+    assert float(rows["nd-soft"]["mean"]) == pytest.approx(totals.mean(), abs=0.1)
+    assert float(rows["nd-soft"]["median"]) == np.median(totals)
+    assert float(rows["none"]["gain_over_q_learning"]) == 0
+    low, high = (float(rows["nd-soft"][f"mean_{end}"]) for end in ("low", "high"))
+    assert low < totals.mean() < high
+
+
+def test_figure_4_as_numbers_has_a_row_per_arm_and_window(made):
+    rows = read(made / "figure4-goal.csv")
+
+    assert len(rows) == 9 * 30
+    assert rows[29] | {"goals": ""} == rows[29] | {"goals": ""}
+    assert {row["steps"] for row in rows} == {str(i * 1_000_000) for i in range(1, 31)}
+
+
+def test_the_measures_of_transfer_see_the_jump(made):
+    """Q-learning jumps after 5 million steps, random hard after 14."""
+    rows = {row["arm"]: row for row in read(made / "measures-goal.csv")}
+
+    assert float(rows["none"]["critical_point"]) == 5_000_000
+    assert float(rows["rand-hard"]["critical_point"]) == 14_000_000
+    assert float(rows["none"]["transfer_ratio"]) == 1
+    assert float(rows["none"]["jumpstart"]) == 0
+    assert float(rows["rand-hard"]["steps_to_threshold"]) == 15_000_000
+
+
+def test_the_ledger_has_every_claim_under_every_convention(made):
+    rows = read(made / "ledger.csv")
+    text = (made / "ledger.md").read_text()
+
+    assert {row["experiment"] for row in rows} == {"goal, target", "cost, target"}
+    assert {row["claim"] for row in rows} == {claim.key for claim in CLAIMS}
+    for claim in CLAIMS:
+        assert f"> {claim.quote}" in text
+    assert text.count("| cost, target | goal, target |") == 1 + len(CLAIMS)
+
+
+def test_the_table_of_tau_has_every_guided_arm(made):
+    rows = read(made / "tau.csv")
+
+    assert [row["arm"] for row in rows] == [arm.name for arm in ARMS if arm.guide]
+    assert [row["paper_tau"] for row in rows] == [
+        "9",
+        "19",
+        "3.5",
+        "11",
+        "3.5",
+        "6",
+    ] + [*("3.5", "6")]
+
+
+def test_figures_are_the_same_bytes_each_time(made, results, tmp_path):
+    make_figures(results, tmp_path)
+    for path in made.iterdir():
+        if path.suffix != ".png":  # stores the version of matplotlib
+            assert path.read_bytes() == (tmp_path / path.name).read_bytes(), path.name
+
+
+def test_a_folder_of_one_experiment_will_do(results, tmp_path):
+    written = make_figures(results / "goal", tmp_path)
+
+    assert tmp_path / "figure3-goal.svg" in written
+
+
+def test_no_results_is_an_error_that_says_how_to_make_some(tmp_path):
+    with pytest.raises(FileNotFoundError, match="abstransfer experiment --out DIR"):
+        make_figures(tmp_path, tmp_path / "out")
+
+
+@pytest.mark.parametrize(
+    ("effect", "unit", "text"),
+    [
+        ((0.25, 0.24, 0.267), "ratio", "+25.0 % [24.0, 26.7]"),
+        ((-5.5e6, -6e6, -5e6), "steps", "-5.5 million steps [-6.0, -5.0]"),
+        (
+            (1234.5, 1200.4, 1300.0),
+            "goals per window",
+            "+1234 goals per window [1200, 1300]",
+        ),
+        ((-0.52, -0.62, -0.43), "", "-0.52 [-0.62, -0.43]"),
+        ((10.83, 10.83, 10.83), "reward", "+10.8 reward"),
+    ],
+)
+def test_an_effect_is_printed_in_its_unit(effect, unit, text):
+    assert effect_text(Finding("", Interval(*effect), unit, HOLDS)) == text
