@@ -1,0 +1,146 @@
+"""
+The learning loop made fast: equal to ``_kernels.learn`` to the bit.
+
+What it does differently, each measured (benchmarks/NOTES.md):
+
+- Beside each state's values it keeps what a step asks of them: the target they
+  give to whoever arrives (reward + gamma * largest) and the set of largest ones.
+  A step changes one value, so both are renewed once, off the critical path.
+- Nothing is decided by a branch except the end of an episode: what would be
+  guessed wrong half of the time is looked up instead.
+- Three independent runs take turns, so that one computes while another waits
+  for memory.  A run's result does not depend on its company.
+- Words are drawn in blocks, and the tables are small (``_packing``).
+
+`guide` and `tau` may be None.  The compiler then leaves out what asks for them:
+no guide: epsilon-greedy; a guide alone: it decides; guide and tau: it fades.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ._kernels import CUTS, GOALS
+from ._rng import STARTS, STEPS, WORD, compiled, fill, inlined, next_word
+from ._rows import MIDDLE, count_below, put
+
+BLOCK = 256  # steps whose words are drawn at once: 4 KB, stays in the nearest cache
+
+
+class FastRun(NamedTuple):
+    """What changes while a run goes on."""
+
+    q: np.ndarray  # (8 S,) values, -inf where there is no action
+    target: np.ndarray  # (S,) reward + gamma * largest value: what arriving gives
+    code: np.ndarray  # (2 S,) uint16: of [2s] the best actions, [2s + 1] the allowed
+    rng: np.ndarray  # (2, 4) as in _kernels.Run, and so the next two
+    place: np.ndarray  # (2,)
+    ended: np.ndarray  # (2,)
+    words: np.ndarray  # (2 BLOCK,) int64
+
+
+@inlined
+def guided(s, field, guide):
+    """Return the action that a field of 16 bits draws from the guide."""
+    return count_below(guide.last, int(guide.row[s]) << 3, field)
+
+
+@inlined
+def choose(t, s, luck, guide, tau, tables, rule, code):
+    """Return an action; the same choice as _kernels.choose makes."""
+    mode, field = luck >> 16, luck & 0xFFFF
+    if guide is not None and tau is None:
+        return guided(s, field, guide)
+    faded = 0
+    explore = rule.explore
+    if tau is not None:
+        faded = (tau - t) << 16
+        explore = faded + t * explore
+        mode = mode * tau
+    chosen = int(code[(s << 1) | (mode < explore)])
+    a = int(tables.member[(chosen >> 4) + ((field * (chosen & 15)) >> 16)])
+    if tau is not None:
+        # Not a choice of two but a mask: a branch would often be guessed wrong.
+        a ^= (a ^ guided(s, field, guide)) & -np.int64(mode < faded)
+    return a
+
+
+@inlined
+def step(t, s, left, i, guide, tau, tables, rule, run):
+    """Take step t from state s with words 2i and 2i+1; return the place after it."""
+    s &= WORD  # known not to be negative: saves the checks of negative indices
+    a = choose(t, s, run.words[2 * i], guide, tau, tables, rule, run.code)
+    fate, outcome = run.words[2 * i + 1], tables.outcome
+    r = int(tables.row[(s << 3) | a]) << 4
+    k = count_below(outcome, r, fate - MIDDLE)
+    s_next = (s + int(outcome[r + 8 + k])) & WORD
+    x = (1.0 - rule.alpha) * run.q[(s << 3) | a] + rule.alpha * run.target[s_next]
+    largest, ties = put(run.q, s << 3, a, x)
+    run.target[s] = tables.reward[s] + rule.gamma * largest
+    run.code[s << 1] = tables.tie_code[ties]
+    return s_next, left - 1
+
+
+@inlined
+def over(s, left, run):
+    """Say whether the episode ends here: no action is best in a terminal state."""
+    return run.code[s << 1] == 0 or left == 0
+
+
+@compiled
+def restart(s, tables, rule, run):
+    """Count the episode that ended in s; return the place where the next begins."""
+    run.ended[GOALS if run.code[s << 1] == 0 else CUTS] += 1
+    word = next_word(run.rng[STARTS])
+    return tables.start[(word * len(tables.start)) >> 32], rule.max_episode
+
+
+@compiled
+def advance_one(first, last, guide, tau, tables, rule, x):
+    """Take steps `first` to `last` of one run, counted from 1."""
+    s, left = x.place[0], x.place[1]
+    for t in range(first, last + 1, BLOCK):
+        n = min(BLOCK, last + 1 - t)
+        fill(x.rng[STEPS], x.words[: 2 * n])
+        for i in range(n):
+            s, left = step(t + i, s, left, i, guide, tau, tables, rule, x)
+            if over(s, left, x):
+                s, left = restart(s, tables, rule, x)
+    x.place[0], x.place[1] = s, left
+
+
+@compiled
+def advance_three(first, last, guide, tau, tables, rule, x, y, z):
+    """Take steps `first` to `last` of three runs, which take turns."""
+    s_x, left_x = x.place[0], x.place[1]
+    s_y, left_y = y.place[0], y.place[1]
+    s_z, left_z = z.place[0], z.place[1]
+    for t in range(first, last + 1, BLOCK):
+        n = min(BLOCK, last + 1 - t)
+        fill(x.rng[STEPS], x.words[: 2 * n])
+        fill(y.rng[STEPS], y.words[: 2 * n])
+        fill(z.rng[STEPS], z.words[: 2 * n])
+        for i in range(n):
+            s_x, left_x = step(t + i, s_x, left_x, i, guide, tau, tables, rule, x)
+            if over(s_x, left_x, x):
+                s_x, left_x = restart(s_x, tables, rule, x)
+            s_y, left_y = step(t + i, s_y, left_y, i, guide, tau, tables, rule, y)
+            if over(s_y, left_y, y):
+                s_y, left_y = restart(s_y, tables, rule, y)
+            s_z, left_z = step(t + i, s_z, left_z, i, guide, tau, tables, rule, z)
+            if over(s_z, left_z, z):
+                s_z, left_z = restart(s_z, tables, rule, z)
+    x.place[0], x.place[1] = s_x, left_x
+    y.place[0], y.place[1] = s_y, left_y
+    z.place[0], z.place[1] = s_z, left_z
+
+
+@compiled
+def refresh(terminal, tables, rule, run):
+    """Write `target` and `code` of all states anew from the values."""
+    for s in range(len(terminal)):
+        largest, ties = put(run.q, s << 3, 0, run.q[s << 3])
+        run.target[s] = tables.reward[s] + rule.gamma * largest
+        run.code[s << 1] = 0 if terminal[s] else tables.tie_code[ties]
