@@ -1,0 +1,143 @@
+"""
+Runs on their way: what the loops read and write, and which loop takes which step.
+"""
+
+from __future__ import annotations
+
+import sys
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _fast, _kernels
+from ._packing import FastGuide, Tables, make_guide, make_world, pack_guide, pack_world
+from ._rng import STARTS, next_word, seed_state
+from ._rows import WIDTH
+from ._settings import Settings
+
+
+class Setup(NamedTuple):
+    """What does not change, shared by all runs of a learner."""
+
+    settings: Settings
+    rule: _kernels.Rule
+    world: _kernels.World
+    guide: _kernels.Guide
+    tables: Tables | None  # None: too large a world for the fast loop
+    fast_guide: FastGuide | None
+
+
+def set_up(settings: Settings) -> Setup:
+    """Return the tables that these settings ask for."""
+    mdp = settings.mdp
+    world = make_world(mdp, settings.start)
+    policy = settings.guide
+    if policy is None:  # any will do: without a guide, tau is 0
+        policy = np.full((mdp.n_states, mdp.n_actions), 1 / mdp.n_actions)
+    guide = make_guide(policy, mdp.terminal)
+    tables = pack_world(world)
+    rule = _kernels.Rule(
+        settings.alpha,
+        settings.gamma,
+        settings.explore,
+        settings.max_episode,
+        settings.tau,
+        settings.strategy == "hard",
+    )
+    return Setup(settings, rule, world, guide, tables, tables and pack_guide(guide))
+
+
+class RunState:
+    """One run: its values, its luck, and what it has counted so far."""
+
+    def __init__(self, setup: Setup, rng):
+        settings, mdp = setup.settings, setup.settings.mdp
+        self.q = _aligned((mdp.n_states, WIDTH if setup.tables else mdp.n_actions))
+        self.q[:, : mdp.n_actions] = settings.q0
+        state = seed_state(rng)
+        start = settings.start[
+            (int(next_word(state[STARTS])) * len(settings.start)) >> 32
+        ]
+        place = np.array([start, settings.max_episode])
+        self.ended = np.zeros(2, np.int64)
+        self.plain = _kernels.Run(self.q, state, place, self.ended)
+        if setup.tables:
+            allowed = mdp.allowed @ (1 << np.arange(mdp.n_actions))
+            code = np.zeros((mdp.n_states, 2), np.uint16)
+            code[:, 1] = setup.tables.tie_code[allowed]
+            target, words = np.zeros(mdp.n_states), np.zeros(2 * _fast.BLOCK, np.int64)
+            self.fast = _fast.FastRun(
+                self.q.ravel(), target, code.ravel(), state, place, self.ended, words
+            )
+            _fast.refresh(mdp.terminal, setup.tables, setup.rule, self.fast)
+        self.who = np.zeros((settings.trace, 4), np.int64)
+        self.what = np.zeros((settings.trace, 3))
+        self.counts = []  # [goals, cuts] of each window
+        self.copies = []  # of Q at the checkpoints
+
+    def note(self, first: int, last: int, settings: Settings) -> None:
+        """Write down what steps `first` to `last` brought, all of one window."""
+        if (first - 1) % settings.window == 0:
+            self.counts.append(np.zeros(2, np.int64))
+        self.counts[-1] += self.ended
+        self.ended[:] = 0
+        if last in settings.checkpoints:
+            self.copies.append(self.q[:, : settings.mdp.n_actions].copy())
+
+
+class Together:
+    """Runs that are at the same step: one, or three that take turns."""
+
+    def __init__(self, setup: Setup, rngs):
+        self.setup = setup
+        self.runs = [RunState(setup, rng) for rng in rngs]
+        self.n_steps = 0
+
+    def advance(self, last: int) -> int:
+        """Go on towards step `last`, to the next stop; return the steps taken."""
+        settings = self.setup.settings
+        first, stop = self.n_steps + 1, settings.next_stop(self.n_steps, last)
+        if self.setup.tables is None or first <= settings.trace:
+            self._plainly(first, stop)
+        else:
+            self._fast(first, stop)
+        self.n_steps = stop
+        for run in self.runs:
+            run.note(first, stop, settings)
+        return (stop - first + 1) * len(self.runs)
+
+    def _plainly(self, first: int, last: int) -> None:
+        settings, rule, world, guide, tables, _ = self.setup
+        for run in self.runs:
+            record = run.who[first - 1 :], run.what[first - 1 :]
+            _kernels.learn(first, last, world, guide, rule, run.plain, *record)
+            if tables:
+                _fast.refresh(settings.mdp.terminal, tables, rule, run.fast)
+
+    def _fast(self, first: int, last: int) -> None:
+        _, rule, _, _, tables, guide = self.setup
+        tau = None if rule.hard else rule.tau
+        if first > rule.tau:
+            guide = tau = None
+        advance = _fast.advance_three if len(self.runs) == 3 else _fast.advance_one
+        advance(first, last, guide, tau, tables, rule, *(run.fast for run in self.runs))
+
+
+@cache
+def say_if_compiling() -> None:
+    """Say on stderr that the first call takes longer, where no cache is found."""
+    stats = getattr(_fast.advance_one, "stats", None)  # none where numba is disabled
+    if stats and not any(Path(stats.cache_path).glob("_fast.advance_*.nbi")):
+        print(
+            "abstransfer: compiling the learning loops, once; it takes some seconds",
+            file=sys.stderr,
+        )
+
+
+def _aligned(shape: tuple[int, int]) -> np.ndarray:
+    """Return -inf in this shape, so that a row of eight is one line of the cache."""
+    block = np.full(shape[0] * shape[1] + 8, -np.inf)
+    skip = -block.ctypes.data % 64 // 8
+    return block[skip : skip + shape[0] * shape[1]].reshape(shape)

@@ -1,0 +1,191 @@
+"""
+Q-learning, alone or guided by a policy.  Pages 3, 8 and 9 of the book teach it.
+
+Every step changes one value (Eq. 1 of Freire & Costa, 2015; the sums in this order):
+
+    Q(s, a) <- (1 - alpha) Q(s, a) + alpha (r + gamma max_b Q(s', b))
+
+Without a guide the action is epsilon-greedy, ties between largest values broken
+at random, all alike.  A guide is any policy; it decides in steps t = 1..tau,
+alone (``hard``, Algorithm 1) or with probability (tau - t) / tau, else
+epsilon-greedy does (``soft``, Algorithm 2).  Nothing here knows a grid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from ._runs import RunState, Together, say_if_compiling, set_up
+from ._settings import QLearningResult, Settings, Trace, whole
+from .mdp import MDP
+
+
+def q_learning(
+    mdp: MDP,
+    n_steps: int,
+    *,
+    rng,
+    guide=None,
+    strategy="hard",
+    tau=0,
+    alpha=0.1,
+    epsilon=0.1,
+    gamma=0.9,
+    q0=0.0,
+    start=None,
+    max_episode=5000,
+    window=500_000,
+    trace=0,
+    checkpoints=(),
+) -> QLearningResult:
+    """
+    Return what one run of Q-learning learns in `n_steps` steps.
+
+    Parameters
+    ----------
+    mdp : MDP
+        Its own discount is not read: `gamma` below is the learner's.
+    n_steps : int
+    rng : int, SeedSequence or Generator
+        The same seed gives the same run to the bit, on any machine.
+    guide : ndarray of float, shape (S, A)
+        Any policy; ``abstract_policy[rho]`` for instance.
+    strategy : {"hard", "soft"}
+    tau : int
+        Last step in which the guide has a say.
+    alpha : float
+        Learning rate, 0 < alpha <= 1.
+    epsilon : float
+        Share of random actions, rounded to 1/65536 as the guide's probabilities.
+    gamma : float
+        Discount, 0 <= gamma <= 1.
+    q0 : float or ndarray of shape (S, A)
+        Values to start from.
+    start : ndarray of int
+        States an episode starts in, all equally likely; by default, all states
+        that are not terminal.
+    max_episode : int
+        Steps after which an episode is cut.  That is no goal, and its last step
+        is learned from as any other.
+    window : int
+        Steps that are counted together.
+    trace : int
+        How many first steps to record.
+    checkpoints : increasing ints
+        Steps after which to keep a copy of Q.
+
+    Raises
+    ------
+    ValueError
+        Naming the argument, what it must be and what it was, before any step.
+
+    Examples
+    --------
+    Three cells in a row, the last is the goal: from the first it takes two steps,
+    so steps 1..5 hold two goals and steps 6..10 three.
+
+    >>> corridor = MDP(
+    ...     next_state=[[[1]], [[2]], [[2]]],
+    ...     prob=np.ones((3, 1, 1)),
+    ...     reward=[0, 0, 1],
+    ...     terminal=[False, False, True],
+    ...     gamma=0.5,
+    ... )
+    >>> result = q_learning(corridor, 10, start=[0], alpha=1, window=5, rng=0)
+    >>> result.goals.tolist()
+    [2, 3]
+    >>> result.q.ravel().tolist()
+    [0.9, 1.0, 0.0]
+    """
+    options = {
+        name: value
+        for name, value in locals().items()
+        if name not in ("mdp", "n_steps", "rng")
+    }
+    return q_learning_runs(mdp, n_steps, rngs=[rng], **options)[0]
+
+
+def q_learning_runs(
+    mdp: MDP,
+    n_steps: int,
+    *,
+    rngs: Iterable,
+    on_progress: Callable[[int], None] | None = None,
+    **options,
+) -> list[QLearningResult]:
+    """
+    Return what independent runs learn, one for each of `rngs`.
+
+    A run's result does not depend on its company, but three runs take half the
+    time together: give them by threes.  Options: see :func:`q_learning`.
+    """
+    learner = Learner(mdp, rngs=rngs, **options)
+    learner.advance(n_steps, on_progress=on_progress)
+    return learner.results()
+
+
+class Learner:
+    """
+    Runs of Q-learning that advance together, as far and as often as asked.
+
+    However the steps are divided among calls of :meth:`advance`, the results are
+    the same to the bit.  Options: see :func:`q_learning`.
+
+    >>> mdp = MDP([[[1]], [[1]]], np.ones((2, 1, 1)), [0, 1], [False, True], 0.5)
+    >>> learner = Learner(mdp, rngs=[1, 2])
+    >>> learner.advance(3)
+    >>> learner.advance(4)
+    >>> [int(result.goals.sum()) for result in learner.results()]
+    [7, 7]
+    """
+
+    def __init__(self, mdp: MDP, *, rngs: Iterable, **options):
+        self.settings = Settings(mdp, **options)
+        self.n_steps = 0  # that each run has taken, or still owes
+        setup, seeds = set_up(self.settings), list(rngs)
+        if not seeds:
+            raise ValueError("rngs must hold at least one seed, got none")
+        threes = len(seeds) // 3 * 3
+        parts = [seeds[i : i + 3] for i in range(0, threes, 3)]
+        parts += [[seed] for seed in seeds[threes:]]
+        self._parts = [Together(setup, part) for part in parts]
+
+    def advance(
+        self, n_steps: int, *, on_progress: Callable[[int], None] | None = None
+    ) -> None:
+        """
+        Let each run take `n_steps` further steps.
+
+        `on_progress` is called now and then with the number of steps just taken,
+        summed over the runs.  If it raises, ``advance(0)`` takes the steps owed.
+        """
+        say_if_compiling()
+        self.n_steps += whole("n_steps", n_steps, 0)
+        for part in self._parts:
+            while part.n_steps < self.n_steps:
+                taken = part.advance(self.n_steps)
+                if on_progress:
+                    on_progress(taken)
+
+    def results(self) -> list[QLearningResult]:
+        """Return what each run learned so far."""
+        return [
+            self._result(part.n_steps, run) for part in self._parts for run in part.runs
+        ]
+
+    def _result(self, n_steps: int, run: RunState) -> QLearningResult:
+        shape = self.settings.mdp.allowed.shape
+        goals, cuts = np.array(run.counts, np.int64).reshape(-1, 2).T.copy()
+        traced = min(n_steps, self.settings.trace)
+        state, action, how, next_state = run.who[:traced].T.copy()
+        return QLearningResult(
+            goals,
+            cuts,
+            n_steps,
+            self.settings.window,
+            run.q[:, : shape[1]].copy(),
+            Trace(state, action, how, next_state, *run.what[:traced].T.copy()),
+            np.array(run.copies).reshape(-1, *shape),
+        )

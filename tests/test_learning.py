@@ -1,0 +1,411 @@
+"""Learning: values that can be checked on paper, chances, counts and refusals."""
+
+import subprocess
+import sys
+from hashlib import sha256
+from math import inf, nan
+
+import numpy as np
+import pytest
+from scipy.stats import chisquare
+
+from abstransfer import (
+    MDP,
+    action_values,
+    navigation_tasks,
+    optimal_values,
+    read_map,
+    uniform_policy,
+)
+from abstransfer.learning import Learner, q_learning, q_learning_runs
+
+LEFT, RIGHT = 0, 1
+GUIDED, EXPLORED, GREEDY = 0, 1, 2
+
+
+def corridor(n_cells=5, success=1.0):
+    """Cells in a row; LEFT and RIGHT succeed or stay; the last cell pays 1."""
+    cell = np.arange(n_cells)
+    left, right = np.maximum(cell - 1, 0), np.minimum(cell + 1, n_cells - 1)
+    next_state = np.stack([left, cell, right, cell], axis=1).reshape(-1, 2, 2)
+    prob = np.broadcast_to([success, 1 - success], next_state.shape)
+    last = cell == n_cells - 1
+    return MDP(next_state, prob, last.astype(float), last, 0.9)
+
+
+def fan(prob, n_actions=1):
+    """State 0 leads to one of K terminal states, whatever the action."""
+    prob = np.asarray(prob)
+    n_states = len(prob) + 1
+    return MDP(
+        np.broadcast_to(np.arange(1, n_states), (n_states, n_actions, len(prob))),
+        np.broadcast_to(prob, (n_states, n_actions, len(prob))),
+        np.zeros(n_states),
+        np.arange(n_states) > 0,
+        0.9,
+    )
+
+
+def p_value(counts, expected):
+    """Chance of counts as uneven as these; 0 where the impossible happened."""
+    counts, expected = np.asarray(counts, float), np.asarray(expected, float)
+    possible = expected > 0
+    if counts[~possible].any():
+        return 0.0
+    expected = expected[possible] / expected.sum() * counts.sum()
+    return chisquare(counts[possible], expected).pvalue
+
+
+# What is learned
+
+
+def test_learned_values_are_the_ones_worked_out_by_hand():
+    """Walking right from cell i is worth 0.9 ** (3 - i); a terminal state 0."""
+    q = q_learning(corridor(), 20_000, alpha=0.5, epsilon=0.5, rng=0).q
+
+    np.testing.assert_allclose(q.max(axis=1), [0.729, 0.81, 0.9, 1, 0], atol=1e-6)
+    assert (q[:4].argmax(axis=1) == RIGHT).all()
+
+
+@pytest.mark.parametrize("trace", [0, 400_000], ids=["fast", "plain"])
+@pytest.mark.parametrize("q0", [0.0, 2.0])
+def test_learned_values_come_near_the_exact_ones(q0, trace):
+    """A slippery corridor, small steps: what is left is the noise of alpha."""
+    mdp = corridor(success=0.8)
+    result = q_learning(
+        mdp, 400_000, alpha=0.002, epsilon=1.0, q0=q0, rng=1, trace=trace
+    )
+    exact = action_values(mdp, optimal_values(mdp))[:4]
+
+    np.testing.assert_allclose(result.q[:4], exact, atol=0.02)
+
+
+def test_each_step_is_the_update_of_the_paper_to_the_bit():
+    mdp = corridor(success=0.8)
+    result = q_learning(mdp, 2000, alpha=0.3, gamma=0.7, q0=0.25, rng=2, trace=2000)
+    q = np.where(mdp.terminal[:, None], 0.0, np.full((5, 2), 0.25))
+
+    for s, a, _, s_next, r, before, after in zip(*result.trace, strict=True):
+        assert before == q[s, a]
+        assert r == mdp.reward[s_next]
+        assert mdp.prob[s, a][mdp.next_state[s, a] == s_next].sum() > 0
+        q[s, a] = (1.0 - 0.3) * q[s, a] + 0.3 * (r + 0.7 * q[s_next].max())
+        assert after == q[s, a]
+    np.testing.assert_array_equal(result.q, q)
+
+
+def test_a_cut_is_no_goal_and_its_step_learns_as_any_other():
+    """One state, one way, back to itself: it is worth 1 + 0.5 of itself."""
+    mdp = MDP([[[0]], [[1]]], np.ones((2, 1, 1)), [1, 0], [False, True], 0.9)
+    result = q_learning(mdp, 7, max_episode=3, alpha=1, gamma=0.5, window=4, rng=0)
+
+    assert result.goals.tolist() == [0, 0]
+    assert result.cuts.tolist() == [1, 1]
+    assert result.q[0, 0] == 2 - 0.5**6
+
+
+@pytest.mark.parametrize("trace", [0, 100], ids=["fast", "plain"])
+def test_an_episode_that_arrives_in_its_last_step_is_a_goal(trace):
+    result = q_learning(
+        corridor(3), 100, start=[0], epsilon=0, q0=[[0, 1]] * 3, max_episode=2,
+        window=30, rng=0, trace=trace,
+    )  # fmt: skip
+
+    assert result.goals.tolist() == [15, 15, 15, 5]
+    assert result.cuts.tolist() == [0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("trace", [0, 5000], ids=["fast", "plain"])
+@pytest.mark.parametrize("strategy", ["hard", "soft"])
+def test_masked_actions_are_not_taken_and_do_not_count(strategy, trace):
+    """The masked action would pay 9; its value says so and must not be read."""
+    mdp = MDP(
+        [[[1], [0], [0]], [[1], [1], [1]]],
+        np.ones((2, 3, 1)),
+        [0, 1],
+        [False, True],
+        0.9,
+        [[True, False, True], [True, True, True]],
+    )
+    q0 = [[0, 9, 0], [0, 0, 0]]
+    result = q_learning(
+        mdp, 5000, guide=[[0.5, 0, 0.5], [1, 0, 0]], strategy=strategy, tau=2500,
+        q0=q0, epsilon=0.5, alpha=1, rng=0, trace=trace,
+    )  # fmt: skip
+
+    assert set(result.trace.action) <= {0, 2}
+    assert result.q[0].tolist() == [1, -inf, 0.9]
+    assert result.q[1].tolist() == [0, 0, 0]
+
+
+# Chances
+
+
+def test_outcomes_come_as_often_as_they_should():
+    prob = [0.5, 0.0, 0.25, 0.125, 0.12, 0.005]
+    trace = q_learning(fan(prob), 100_000, rng=3, trace=100_000).trace
+
+    assert p_value(np.bincount(trace.next_state, minlength=7)[1:], prob) > 0.001
+
+
+@pytest.mark.parametrize("epsilon", [0, 1], ids=["ties", "explore"])
+@pytest.mark.parametrize("n_actions", [2, 3, 7, 11])
+def test_equal_actions_are_chosen_equally_often(n_actions, epsilon):
+    """All values are 0 and stay so: every choice is a tie."""
+    mdp = fan([1.0], n_actions)
+    trace = q_learning(mdp, 50_000, epsilon=epsilon, rng=4, trace=50_000).trace
+    counts = np.bincount(trace.action, minlength=n_actions)
+
+    assert set(trace.how) == {EXPLORED if epsilon else GREEDY}
+    assert p_value(counts, np.ones(n_actions)) > 0.001
+
+
+def test_ties_are_broken_among_the_largest_only():
+    mdp = fan([1.0], 4)
+    q0 = np.tile([0.0, 1.0, 0.5, 1.0], (2, 1))
+    options = {"epsilon": 0, "alpha": 1e-300, "q0": q0, "rng": 5, "trace": 20_000}
+    counts = np.bincount(q_learning(mdp, 20_000, **options).trace.action, minlength=4)
+
+    assert p_value(counts, [0, 1, 0, 1]) > 0.001
+
+
+def test_epsilon_is_the_share_of_random_actions():
+    trace = q_learning(fan([1.0], 2), 100_000, epsilon=0.1, rng=6, trace=100_000).trace
+    counts = np.bincount(trace.how, minlength=3)
+
+    assert p_value(counts, [0, 0.1, 0.9]) > 0.001
+
+
+@pytest.mark.parametrize("start", [None, [0, 2, 3, 3]])
+def test_episodes_start_where_they_should_equally_often(start):
+    """Every episode is one step long, so each step starts one."""
+    n_states = 6
+    mdp = MDP(
+        np.full((n_states, 1, 1), n_states - 1),
+        np.ones((n_states, 1, 1)),
+        np.zeros(n_states),
+        np.arange(n_states) == n_states - 1,
+        0.9,
+    )
+    trace = q_learning(mdp, 50_000, start=start, rng=7, trace=50_000).trace
+    expected = [1, 1, 1, 1, 1, 0] if start is None else [1, 0, 1, 2, 0, 0]
+
+    assert p_value(np.bincount(trace.state, minlength=n_states), expected) > 0.001
+
+
+def test_a_hard_guide_decides_alone_up_to_tau():
+    guide = np.tile([0.0, 0.7, 0.0, 0.3, 0.0], (2, 1))
+    trace = q_learning(
+        fan([1.0], 5), 100_000, guide=guide, tau=50_000, rng=8, trace=100_000
+    ).trace
+    counts = np.bincount(trace.action[:50_000], minlength=5)
+
+    assert (trace.how[:50_000] == GUIDED).all()
+    assert (trace.how[50_000:] != GUIDED).all()
+    assert p_value(counts, guide[0]) > 0.001
+    assert len(set(trace.action[50_000:])) == 5
+
+
+def test_a_soft_guide_fades_in_a_straight_line():
+    """Guided with probability (tau - t) / tau, else epsilon-greedy."""
+    tau, parts = 200_000, 10
+    trace = q_learning(
+        fan([1.0], 2), tau + 1000, guide=np.full((2, 2), 0.5), strategy="soft",
+        tau=tau, epsilon=0.25, rng=9, trace=tau + 1000,
+    ).trace  # fmt: skip
+    faded = (np.arange(parts) + 0.5) / parts
+
+    for how, f in zip(trace.how[:tau].reshape(parts, -1), faded, strict=True):
+        counts = np.bincount(how, minlength=3)
+        assert p_value(counts, [1 - f, f * 0.25, f * 0.75]) > 0.001
+    assert (trace.how[tau - 1 :] != GUIDED).all()
+
+
+def test_no_decision_tells_anything_about_another():
+    """How, which action and which outcome: independent, all 24 combinations."""
+    trace = q_learning(
+        fan([0.25, 0.75], 4), 200_000, guide=np.full((3, 4), 0.25), strategy="soft",
+        tau=200_000, epsilon=0.5, rng=10, trace=200_000,
+    ).trace  # fmt: skip
+    counts = np.zeros((3, 4, 2))
+    np.add.at(counts, (trace.how, trace.action, trace.next_state - 1), 1)
+    share = np.einsum("h,a,o->hao", [0.5, 0.25, 0.25], np.full(4, 0.25), [0.25, 0.75])
+
+    assert p_value(counts.ravel(), share.ravel()) > 0.001
+
+
+# Records
+
+
+def test_the_same_seed_gives_the_same_run_and_another_seed_another():
+    one, same, other = (
+        q_learning(corridor(success=0.8), 5000, rng=rng) for rng in (1, 1, 2)
+    )
+
+    np.testing.assert_array_equal(one.q, same.q)
+    assert (one.q != other.q).any()
+
+
+def test_arms_with_one_seed_share_their_luck():
+    """The e-th episode starts in the same state, whatever the agents do."""
+    guide = np.tile([0.5, 0.5], (5, 1))
+    options = {"rng": 11, "trace": 4000}
+    traces = (
+        q_learning(corridor(), 4000, **options, **led).trace
+        for led in ({}, {"guide": guide, "tau": 4000})
+    )
+    one, other = (t.state[1:][t.next_state[:-1] == 4] for t in traces)
+    n_episodes = min(len(one), len(other))
+
+    assert len(one) != len(other)
+    assert n_episodes > 50
+    np.testing.assert_array_equal(one[:n_episodes], other[:n_episodes])
+
+
+def test_checkpoints_hold_what_a_shorter_run_would_have_learned():
+    mdp = corridor(success=0.8)
+    result = q_learning(mdp, 1000, checkpoints=[1, 300, 1000, 2000], rng=12)
+
+    assert result.checkpoints.shape == (3, 5, 2)
+    for q, n_steps in zip(result.checkpoints, (1, 300, 1000), strict=True):
+        np.testing.assert_array_equal(q, q_learning(mdp, n_steps, rng=12).q)
+
+
+def test_windows_add_up_and_the_last_may_be_shorter():
+    whole = q_learning(corridor(), 1000, window=1000, rng=13)
+    parts = q_learning(corridor(), 1000, window=300, rng=13)
+
+    assert parts.goals.shape == parts.cuts.shape == (4,)
+    assert parts.goals.sum() == whole.goals.sum() > 0
+
+
+def test_no_steps_give_no_windows_and_the_first_values():
+    result = q_learning(corridor(), 0, q0=0.5, rng=0)
+
+    assert result.goals.tolist() == []
+    assert result.q.tolist() == [[0.5, 0.5]] * 4 + [[0, 0]]
+
+
+def test_progress_is_told_and_an_interrupted_run_goes_on():
+    mdp, told = corridor(success=0.8), []
+    expected = q_learning_runs(mdp, 5000, rngs=range(4), window=1000)
+
+    def interrupt(n_steps):
+        told.append(n_steps)
+        if len(told) == 3:
+            raise KeyboardInterrupt
+
+    learner = Learner(mdp, rngs=range(4), window=1000)
+    with pytest.raises(KeyboardInterrupt):
+        learner.advance(5000, on_progress=interrupt)
+    learner.advance(0, on_progress=interrupt)
+
+    assert sum(told) == 4 * 5000
+    for one, other in zip(learner.results(), expected, strict=True):
+        np.testing.assert_array_equal(one.q, other.q)
+        np.testing.assert_array_equal(one.goals, other.goals)
+
+
+# Refusals
+
+REFUSALS = {
+    "n_steps": [-1, 2.5, "many", nan, None, True],
+    "tau": [-1, 0.5, nan],
+    "alpha": [0, -0.1, 1.1, nan, "x"],
+    "epsilon": [-0.1, 1.1, nan, None],
+    "gamma": [-0.1, 1.1, nan],
+    "q0": [nan, inf, [1.0, 2.0]],
+    "start": [[4], [9], [-1], [], [0.5], 3, "0"],
+    "max_episode": [0, -5, 1.5],
+    "window": [0, 2.5],
+    "trace": [-1, 0.5],
+    "checkpoints": [[0], [5, 5], [7, 3], [1.5]],
+    "strategy": ["Hard", None],
+    "guide": [
+        np.full((5, 2), 0.6),
+        np.full((5, 3), 1 / 3),
+        np.tile([1.5, -0.5], (5, 1)),
+        np.tile([nan, 1.0], (5, 1)),
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"), [(name, value) for name in REFUSALS for value in REFUSALS[name]]
+)
+def test_a_wrong_setting_is_refused_by_its_name(name, wrong):
+    options = {"n_steps": 10, "guide": np.full((5, 2), 0.5), name: wrong}
+    with pytest.raises(ValueError, match=f"^{name} must"):
+        q_learning(corridor(), rng=0, **options)
+
+
+def test_a_guide_that_takes_a_masked_action_is_refused():
+    free = corridor()
+    allowed = [[True, False]] + [[True, True]] * 4
+    mdp = MDP(free.next_state, free.prob, free.reward, free.terminal, 0.9, allowed)
+
+    with pytest.raises(ValueError, match="guide must use allowed actions only: at st"):
+        q_learning(mdp, 10, guide=np.full((5, 2), 0.5), tau=5, rng=0)
+
+
+def test_tau_without_a_guide_is_refused():
+    with pytest.raises(ValueError, match="tau must be 0 without a guide, got 5"):
+        q_learning(corridor(), 10, tau=5, rng=0)
+
+
+def test_no_seeds_are_refused():
+    with pytest.raises(ValueError, match="rngs must hold at least one seed"):
+        q_learning_runs(corridor(), 10, rngs=[])
+
+
+# The paper's task
+
+
+@pytest.mark.parametrize(
+    ("strategy", "tau", "goals", "digest"),
+    [
+        ("hard", 0, [182, 232, 279, 402], "23b6ab36e1cef97a"),
+        ("hard", 2_000_000, [426, 1813, 5951, 33692], "bfa523a8a5937880"),
+        ("soft", 2_000_000, [424, 340, 455, 631], "dca70e32c85e7b42"),
+    ],
+)
+def test_a_run_on_the_target_map_is_the_same_on_every_machine(
+    strategy, tau, goals, digest
+):
+    """Integers and doubles in one order: these numbers may never change."""
+    tasks = navigation_tasks(read_map("target"), reward="goal")
+    guide = uniform_policy(tasks.available)
+    result = q_learning(
+        tasks.mdp, 8e6, guide=guide, strategy=strategy, tau=tau, window=2e6, rng=1
+    )
+
+    assert result.goals.tolist() == goals
+    assert sha256(result.q.tobytes()).hexdigest()[:16] == digest
+
+
+def test_importing_the_package_does_not_import_numba():
+    code = "import sys, abstransfer; print('numba' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+
+    assert done.stdout.strip() == "False"
+
+
+def test_the_first_call_says_that_it_compiles(tmp_path):
+    code = (
+        "import numpy as np; from abstransfer import MDP;"
+        "from abstransfer.learning import q_learning;"
+        "mdp = MDP([[[1]]] * 2, np.ones((2, 1, 1)), [0, 1], [False, True], 0.5);"
+        "q_learning(mdp, 5, rng=0); q_learning(mdp, 5, rng=0)"
+    )
+
+    def stderr():
+        return subprocess.run(
+            [sys.executable, "-c", code],
+            env={"NUMBA_CACHE_DIR": str(tmp_path)},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stderr
+
+    assert stderr().count("compiling the learning loops") == 1
+    assert stderr() == ""
