@@ -10,6 +10,7 @@ its neighbours at the same distances, a few rows serve all tasks.
 from __future__ import annotations
 
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -65,6 +66,18 @@ def make_guide(policy: np.ndarray, terminal: np.ndarray) -> Guide:
     policy = np.where(terminal[:, None], 1 / policy.shape[1], policy)
     rows, row = distinct(integer_bounds(policy, 16))
     return Guide(row, rows)
+
+
+def pack(mdp: MDP, start: np.ndarray) -> tuple[World, Tables | None]:
+    """Return the tables of both loops; the work is done once for each MDP."""
+    if mdp not in _packed:
+        world = make_world(mdp, start)
+        _packed[mdp] = world, pack_world(world)
+    world, tables = _packed[mdp]
+    return world._replace(start=start), tables and tables._replace(start=start)
+
+
+_packed: WeakKeyDictionary = WeakKeyDictionary()
 
 
 def pack_world(world: World) -> Tables | None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _fast, _kernels
-from ._packing import FastGuide, Tables, make_guide, make_world, pack_guide, pack_world
+from ._packing import FastGuide, Tables, make_guide, pack, pack_guide
 from ._rng import STARTS, next_word, seed_state
 from ._rows import WIDTH
 from ._settings import Settings
@@ -32,12 +32,11 @@ class Setup(NamedTuple):
 def set_up(settings: Settings) -> Setup:
     """Return the tables that these settings ask for."""
     mdp = settings.mdp
-    world = make_world(mdp, settings.start)
+    world, tables = pack(mdp, settings.start)
     policy = settings.guide
     if policy is None:  # any will do: without a guide, tau is 0
         policy = np.full((mdp.n_states, mdp.n_actions), 1 / mdp.n_actions)
     guide = make_guide(policy, mdp.terminal)
-    tables = pack_world(world)
     rule = _kernels.Rule(
         settings.alpha,
         settings.gamma,

@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 
 from abstransfer import MDP, navigation_tasks, read_map
-from abstransfer._packing import distinct, integer_bounds, make_world, pack_world
+from abstransfer._packing import (
+    _packed,
+    distinct,
+    integer_bounds,
+    make_world,
+    pack,
+    pack_world,
+)
 from abstransfer._rng import fill, next_word, seed_state
 from abstransfer._rows import count_below, put
 from abstransfer.learning import Learner, q_learning_runs
@@ -144,6 +151,18 @@ def test_a_building_needs_a_few_rows_for_all_its_tasks():
     assert mdp.n_states == 18_900
     assert tables.outcome.size == 15 * 16
     assert tables.row.dtype == np.uint8
+
+
+def test_an_mdp_is_packed_once_and_forgotten_with_it():
+    mdp = random_mdp(0)
+    before = len(_packed)
+    one, other = pack(mdp, np.array([0])), pack(mdp, np.array([1]))
+
+    assert one[0].bound is other[0].bound
+    assert one[1].start.tolist() == [0]
+    assert other[1].start.tolist() == [1]
+    del mdp
+    assert len(_packed) == before
 
 
 def test_different_rows_are_numbered_as_they_come():
