@@ -33,9 +33,6 @@ def to_text(chars: np.ndarray) -> str:
     corner[north & south & ~west & ~east] = "|"
     corner[west & east & ~north & ~south] = "-"
     corner[~(north | south | west | east)] = " "
-    ends = np.zeros_like(north)
-    ends[[0, 0, -1, -1], [0, -1, 0, -1]] = True
-    corner[ends] = "+"
     chars[::2, ::2] = corner
     return "\n".join("".join(line) for line in chars)
 

@@ -94,7 +94,10 @@ class MDP:
         """Outcomes that can happen: arrays state, action, next_state, prob (E,)."""
         here = np.nonzero(self.prob)
         state, action, _ = (index.astype(np.int32) for index in here)
-        return state, action, self.next_state[here], self.prob[here]
+        arrays = state, action, self.next_state[here], self.prob[here]
+        for array in arrays:
+            array.flags.writeable = False
+        return arrays
 
     @property
     def n_states(self) -> int:

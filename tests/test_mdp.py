@@ -60,6 +60,27 @@ def test_arrays_are_read_only_copies(name):
     np.testing.assert_array_equal(getattr(mdp, name), before)
 
 
+def test_transitions_are_the_outcomes_that_can_happen():
+    """Of the two outcomes of each action, those of state 1 are certain here."""
+    prob = np.array(arguments()["prob"])
+    prob[1] = [1.0, 0.0]
+    transitions = MDP(**arguments(prob=prob)).transitions
+
+    assert [tuple(row) for row in np.transpose(transitions).tolist()] == [
+        (0, 0, 1, 0.8),
+        (0, 0, 0, 0.2),
+        (0, 1, 0, 0.8),
+        (0, 1, 0, 0.2),
+        (1, 0, 2, 1.0),
+        (1, 1, 1, 1.0),
+        (2, 0, 2, 0.8),
+        (2, 0, 2, 0.2),
+        (2, 1, 2, 0.8),
+        (2, 1, 2, 0.2),
+    ]
+    assert not any(array.flags.writeable for array in transitions)
+
+
 REFUSED = {
     "too few axes": (
         arguments(next_state=[[1, 0], [2, 1]]),

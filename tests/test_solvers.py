@@ -94,6 +94,12 @@ def test_a_terminal_state_is_worth_its_reward_and_ends_the_episode(corridor):
     np.testing.assert_allclose(v, [(4 / 9) ** 2, 4 / 9, 1], rtol=1e-14)
 
 
+def test_what_a_policy_would_do_in_a_terminal_state_is_not_read(corridor):
+    v = evaluate_policy(corridor, np.array([[1.0, 0], [1.0, 0], [np.nan, np.inf]]))
+
+    np.testing.assert_allclose(v, [-1.3 / 0.81, -1 / 0.9, 0], rtol=1e-14)
+
+
 def test_an_action_is_worth_the_value_it_is_expected_to_reach(corridor):
     q = action_values(corridor, np.array([-5.0, -3.0, 0.0]))
 
