@@ -15,7 +15,7 @@ import numpy as np
 
 from .mdp import MDP, check_policy
 from .policies import uniform_policy
-from .solvers import action_values, factorize, transition_matrix
+from .solvers import TIE, action_values, factorize, transition_matrix
 
 
 class Climb(NamedTuple):
@@ -153,7 +153,10 @@ def absprob_pi(
     for i in progress(range(1, iterations + 1)):
         value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
         history.append(value)
-        best = np.where(possible, gradient, -np.inf).argmax(axis=1)
+        ranked = np.where(possible, gradient, -np.inf)
+        most = ranked.max(axis=1, keepdims=True)
+        # The first of equally good actions: rounding must not choose among them.
+        best = (ranked >= most - TIE * np.abs(most)).argmax(axis=1)
         target = possible * (softness / n_actions)
         target[np.arange(n_abstract), best] += 1 - softness
         target /= target.sum(axis=1, keepdims=True)
