@@ -292,32 +292,44 @@ def test_many_rows_need_a_larger_type_and_give_the_same():
 DIGEST = """
 import hashlib, sys
 sys.path.insert(0, {tests!r})
-from test_kernels import PHASES, options, q_learning_runs, random_mdp
-for trace in (0, 1500):
-    for phase in PHASES:
-        mdp = random_mdp(8)
-        rngs = range(4)  # three together, one alone
-        runs = q_learning_runs(mdp, 1500, rngs=rngs, trace=trace, **options(mdp, phase))
+from test_kernels import options, q_learning_runs, random_mdp
+for phase in {phases}:
+    for trace in {traces}:
+        setting = options(random_mdp(8), phase)
+        runs = q_learning_runs(
+            random_mdp(8), 1500, rngs=range({n_runs}), trace=trace, **setting
+        )
         for run in runs:
             parts = run.q, run.goals, run.cuts, *run.trace
             print(hashlib.sha256(b"".join(p.tobytes() for p in parts)).hexdigest())
 """
 
 
+def digest(variables, phases=tuple(PHASES), traces=(0, 1500), n_runs=4):
+    """Return what a fresh Python learns, as a line of hex digits for each run."""
+    tests = str(ROOT / "tests")
+    code = DIGEST.format(tests=tests, phases=phases, traces=traces, n_runs=n_runs)
+    return subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        env={**os.environ, **variables},
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split()
+
+
 def test_compiled_and_plain_python_agree_to_the_bit():
-    code = DIGEST.format(tests=str(ROOT / "tests"))
+    """Three runs in turn and one alone, on both loops, in all phases."""
+    compiled = digest({})
 
-    def digest(**variables):
-        return subprocess.run(
-            [sys.executable, "-W", "error", "-c", code],
-            env={**os.environ, **variables},
-            cwd=ROOT,
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
+    assert len(set(compiled)) == len(compiled) == 24
+    assert digest({"NUMBA_DISABLE_JIT": "1"}) == compiled
 
-    compiled = digest()
 
-    assert len(set(compiled.split())) == 24
-    assert digest(NUMBA_DISABLE_JIT="1") == compiled
+def test_a_processor_without_wide_registers_gives_the_same_to_the_bit(tmp_path):
+    old = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
+    old["NUMBA_CACHE_DIR"] = str(tmp_path)
+    few = {"phases": ("soft",), "traces": (0,), "n_runs": 3}
+
+    assert digest(old, **few) == digest({}, **few)
