@@ -1,6 +1,7 @@
 # make book   build the book into build/_build/html
 # make test   check everything: style, package, notebooks, built pages
 # make lab    open the notebooks in JupyterLab
+# make bench  measure the learning loops beside other people's (a minute or two)
 # make clean  remove what these made
 #
 # The only need is Python 3.11 or newer; to choose one: make book PYTHON=python3.12
@@ -11,12 +12,12 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 PYTEST := $(BIN)/python -m pytest --quiet -n 2
 
-.PHONY: book test lab clean env system
+.PHONY: book test lab bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test lab clean env system:
+book test lab bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -66,6 +67,10 @@ ifdef CI
 	  $$as_root apt-get update -qq && \
 	  $$as_root apt-get install -y -qq --no-install-recommends chromium nodejs fonts-dejavu; fi
 endif
+
+bench: .venv/.book
+	$(PIP) --editable ".[peers]"
+	$(BIN)/python benchmarks/run.py
 
 lab: .venv/.lab
 	$(BIN)/jupyter-lab book
