@@ -21,6 +21,8 @@ from ._runs import RunState, Together, say_if_compiling, set_up
 from ._settings import QLearningResult, Settings, Trace, whole
 from .mdp import MDP
 
+__all__ = ["Learner", "QLearningResult", "Trace", "q_learning", "q_learning_runs"]
+
 
 def q_learning(
     mdp: MDP,
