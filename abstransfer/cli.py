@@ -1,5 +1,5 @@
 """
-The command line: Table 1, and whether this machine is ready.
+The command line: Table 1, learning, figures, and whether this machine is ready.
 
 Every subcommand takes ``--json`` for output that programs read.  Bad input
 ends with a message and exit code 2, an interrupt with 130.
@@ -13,6 +13,8 @@ import os
 import sys
 from functools import partial
 
+from ._cli_experiment import add_experiment, add_figures
+from ._cli_learn import add_learn
 from .maps import read_map
 from .navigation import navigation_tasks
 from .table1 import format_table1, table1
@@ -43,6 +45,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_table1(commands)
+    for add in (add_learn, add_experiment, add_figures):
+        add(commands)
     _add_doctor(commands)
     return parser
 

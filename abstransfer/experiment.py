@@ -58,10 +58,11 @@ def run_experiment(
     reading : Reading, optional
         By default the paper's maps, with reward ``"goal"``.
     scale : {"page", "class", "paper"} or Scale
-        Steps of a run and of a window.  The problem does not shrink with them:
+        Steps of a run and of a window; tau shrinks along.  The problem does not:
         at page scale a run sees a state-action pair 7 times in the mean, not
-        200.  So it shows the early part of learning only, and a tau that is
-        best at paper scale need not be so here.
+        200.  A smaller scale is the beginning of learning, not a small copy of
+        it: at page scale Q-learning and random have hardly reached a goal, and
+        advice looks better, soft advice above all, than it is in the end.
     n_runs : int, default 50
     seed : int
         Run i draws from ``SeedSequence(seed, spawn_key=(stream, i))``.

@@ -6,7 +6,7 @@ Page 9 of the book shows what this module writes.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +28,7 @@ from .tables import (
 )
 from .tuning import tune
 
+Ledgers = Mapping[str, tuple[Entry, ...]]  # by experiment
 SCALES = {"ratio": (100, " %"), "steps": (1e-6, " million steps")}
 
 
@@ -43,7 +44,7 @@ def make_figures(
     Returns the files written.  Raises FileNotFoundError where no experiment
     has finished.
     """
-    out = Path(out)
+    experiments, out = finished_experiments(results), Path(out)
     out.mkdir(parents=True, exist_ok=True)
     written, entries, taus = [], {}, []
 
@@ -57,7 +58,7 @@ def make_figures(
         if on_file:
             on_file(path)
 
-    for name, found in finished_experiments(results).items():
+    for name, found in experiments.items():
         if is_grid(found):
             tunings = tune(found)
             rows = tau_table(tunings)
@@ -131,29 +132,45 @@ def tau_figure(results: Results):
     return figure(plot_tau, totals, bands=bands, paper=paper)
 
 
-def ledger_text(entries: dict[str, tuple[Entry, ...]]) -> str:
+def ledger_text(ledgers: Ledgers) -> str:
     """Return ledgers, by experiment, as Markdown: verdicts first, then findings."""
-    first = next(iter(entries.values()))
-    summary = [
-        {"claim": f"{entry.claim.key}. {entry.claim.title}"}
-        | {name: judged[i].verdict for name, judged in entries.items()}
-        for i, entry in enumerate(first)
-    ]
-    lines = ["# Ledger of claims", "", to_markdown(summary)]
-    for i, entry in enumerate(first):
+    lines = ["# Ledger of claims", "", to_markdown(verdicts_table(ledgers))]
+    for entry in next(iter(ledgers.values())):
         claim = entry.claim
         lines += [f"## {claim.key}. {claim.title}", "", f"> {claim.quote}", ""]
         lines += [f"Test: {claim.test}", ""]
-        rows = [
-            {"finding": a.text + ("" if a.main else " (condition)")}
-            | {
-                n: f"{effect_text(e[i].findings[j])}: {e[i].findings[j].verdict}"
-                for n, e in entries.items()
-            }
-            for j, a in enumerate(entry.findings)
-        ]
-        lines.append(to_markdown(rows))
+        lines.append(to_markdown(findings_table(ledgers, claim.key)))
     return "\n".join(lines).rstrip() + "\n"
+
+
+def verdicts_table(ledgers: Ledgers) -> list[dict]:
+    """Return a row for each claim: the verdict on it in each experiment."""
+    first = next(iter(ledgers.values()))
+    return [
+        {"claim": f"{entry.claim.key}. {entry.claim.title}"}
+        | {name: judged[i].verdict for name, judged in ledgers.items()}
+        for i, entry in enumerate(first)
+    ]
+
+
+def findings_table(ledgers: Ledgers, key: str) -> list[dict]:
+    """Return a row for each finding on a claim: its effect in each experiment."""
+    judged = {
+        name: entry.findings
+        for name, entries in ledgers.items()
+        for entry in entries
+        if entry.claim.key == key
+    }
+    if not judged:
+        raise KeyError(f"no claim {key!r} in the ledgers")
+    return [
+        {"finding": finding.text + ("" if finding.main else " (condition)")}
+        | {
+            name: f"{effect_text(found[j])}: {found[j].verdict}"
+            for name, found in judged.items()
+        }
+        for j, finding in enumerate(next(iter(judged.values())))
+    ]
 
 
 def effect_text(finding) -> str:

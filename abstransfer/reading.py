@@ -78,9 +78,9 @@ class Reading:
         for name, rule, ok in (
             ("success", "lie in 0..1, and not be 0", 0 < self.success <= 1),
             ("q0", "be finite", math.isfinite(self.q0)),
-            ("alpha", "lie in 0..1", 0 <= self.alpha <= 1),
+            ("alpha", "lie in 0..1, and not be 0", 0 < self.alpha <= 1),
             ("epsilon", "lie in 0..1", 0 <= self.epsilon <= 1),
-            ("gamma", "lie in 0..1, and not be 1", 0 <= self.gamma < 1),
+            ("gamma", "lie in 0..1", 0 <= self.gamma <= 1),
             ("max_episode", "be at least 1", self.max_episode >= 1),
         ):
             if not ok:

@@ -22,6 +22,8 @@ from .arms import Scale
 from .policies import restrict_policy
 from .reading import Reading, target_tasks
 
+STOP = threading.Event()  # set in a worker process whose parent wants no more
+
 
 class Job(NamedTuple):
     """Some runs of one arm: all that a worker needs to know."""
@@ -44,6 +46,13 @@ def run_job(
     """
     from .learning import q_learning_runs
 
+    def go_on(n_steps: int) -> None:
+        if STOP.is_set():
+            raise InterruptedError("the experiment was interrupted")
+        if on_progress:
+            on_progress(n_steps)
+
+    go_on(0)
     tasks, reading = target_tasks(job.reading), job.reading
     guide = None
     if job.guide is not None:
@@ -53,7 +62,7 @@ def run_job(
         tasks.mdp,
         job.scale.steps,
         rngs=job.seeds,
-        on_progress=on_progress,
+        on_progress=go_on,
         guide=guide,
         strategy=job.strategy,
         tau=job.tau,
@@ -99,7 +108,7 @@ def run_jobs(
                 "stored if there is a folder for it: run the same again"
             ) from None
         except BaseException:
-            writer.close()  # the workers stop at once, in the middle of their jobs
+            writer.close()  # the workers stop in the middle of their jobs
             raise
 
 
@@ -114,13 +123,20 @@ def _collect(jobs, executor, on_result) -> None:
 
 
 def _start_worker(reader) -> None:
-    """Leave Ctrl-C to the parent, and end when it ends or closes the pipe."""
+    """
+    Leave Ctrl-C to the parent; stop when it closes the pipe, and end when it ends.
+
+    Nothing is ended by force while the parent lives: it could wait for ever to
+    hand over a job.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def watch():
         try:
             reader.recv()
-        finally:
-            os._exit(1)
+        except EOFError:
+            STOP.set()
+        multiprocessing.parent_process().join()
+        os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
