@@ -1,0 +1,174 @@
+"""Exercises of page 1: a building as a decision problem."""
+
+import numpy as np
+
+from ._model import Wrong, function, value
+from ._read import size
+
+GAMMA = 0.99
+
+
+def step(neighbors, goal, success, cell, direction, luck):
+    """Return the next cell and the reward, as the paper pays it."""
+    there = neighbors[cell, direction]
+    if luck < success and there >= 0:
+        cell = there
+    return cell, (0 if cell == goal else -1)
+
+
+def step_in_other_words(neighbors, goal, success, cell, direction, luck):
+    moved = luck < success and neighbors[cell][direction] != -1
+    now = neighbors[cell][direction] if moved else cell
+    return [now, float(now == goal) - 1]
+
+
+def _through_walls(neighbors, goal, success, cell, direction, luck):
+    now = neighbors[cell, direction] if luck < success else cell
+    return now, (0 if now == goal else -1)
+
+
+def _never_fails(neighbors, goal, success, cell, direction, luck):
+    return step(neighbors, goal, 2, cell, direction, luck)
+
+
+def _fails_when_lucky(neighbors, goal, success, cell, direction, luck):
+    return step(neighbors, goal, success, cell, direction, -1 if luck >= success else 2)
+
+
+def _pays_where_it_was(neighbors, goal, success, cell, direction, luck):
+    now, _ = step(neighbors, goal, success, cell, direction, luck)
+    return now, (0 if cell == goal else -1)
+
+
+def _paid_on_the_goal(neighbors, goal, success, cell, direction, luck):
+    now, _ = step(neighbors, goal, success, cell, direction, luck)
+    return now, (1 if now == goal else 0)
+
+
+def _two_rooms(rng):
+    """Yield every step in a corridor of four cells, and from a few more cells."""
+    neighbors = np.array(
+        [[-1, 1, -1, -1], [-1, 2, -1, 0], [-1, 3, -1, 1], [-1, -1, -1, 2]]
+    )
+    for cell in range(3):
+        for direction in range(4):
+            for luck in (0.05, 0.95):
+                yield neighbors, 3, 0.9, cell, direction, luck
+                yield neighbors, 3, 0.5, cell, direction, float(rng.random())
+
+
+EXERCISES = [
+    value(
+        "ex-1-1",
+        "A robot stands 20 steps from the goal and no move fails. It pays 1 where it "
+        "stands now and in each cell on its way, and nothing on the goal; each step "
+        "later counts 0.99 times as much. What is the value of its state?",
+        -(1 - GAMMA**20) / (1 - GAMMA),
+        hints=(
+            "Write down the first three payments, and what each counts.",
+            "The payments are -1, -0.99, -0.99^2, ...: a geometric series of 20 terms.",
+            "The sum 1 + g + ... + g^(n-1) is (1 - g^n) / (1 - g); mind the sign.",
+        ),
+        wrong=[
+            Wrong("no discount", -20, "Later steps count less: multiply each by 0.99."),
+            Wrong(
+                "the sign",
+                (1 - GAMMA**20) / (1 - GAMMA),
+                "The size is right. But the robot pays, so the value is below 0.",
+            ),
+            Wrong(
+                "one payment too many",
+                -(1 - GAMMA**21) / (1 - GAMMA),
+                "On the goal, 20 steps from here, nothing is paid. "
+                "How many cells before it cost something?",
+            ),
+            Wrong(
+                "one payment too few",
+                -(1 - GAMMA**19) / (1 - GAMMA),
+                "The cell where the robot stands now costs something too.",
+            ),
+            Wrong(
+                "the first payment is discounted already",
+                -GAMMA * (1 - GAMMA**20) / (1 - GAMMA),
+                "The payment of this moment counts in full; the next one counts 0.99.",
+            ),
+        ],
+    ),
+    value(
+        "ex-1-2",
+        "With discount 0.99 and a cost of 1 per step, what does a robot pay that never "
+        "arrives?",
+        100,
+        hints=(
+            "The robot pays 1 for ever; each step later counts less.",
+            "Call the sum x. Without its first term it is 0.99 times itself.",
+            "From x = 1 + 0.99 x follows x = 1 / (1 - 0.99).",
+        ),
+        wrong=[
+            Wrong(
+                "without the first payment",
+                99,
+                "The payment of this moment counts too, and in full.",
+            ),
+            Wrong(
+                "a sum without end is infinite",
+                np.inf,
+                "The terms shrink by the same factor; such a sum stays finite.",
+            ),
+            Wrong(
+                "one over gamma", 1 / 0.99, "Divide by what is lost per step: 1 - 0.99."
+            ),
+            Wrong(
+                "the discount of learning",
+                10,
+                "That is the sum for a discount of 0.9, used for learning. Here it is "
+                "0.99.",
+            ),
+        ],
+        read=size,
+    ),
+    function(
+        "ex-1-3",
+        "Write `step`, which returns the next cell and the reward. `neighbors[cell, "
+        "direction]` is the cell behind that edge, or -1 behind a wall. The move "
+        "succeeds if `luck < success`, else the robot stays. Arriving at the goal pays "
+        "0, any other step -1; staying counts as arriving where it was.",
+        step,
+        cases=_two_rooms,
+        same=(step_in_other_words,),
+        hints=(
+            "Two things can keep the robot where it is. Which?",
+            "It stays if its luck is `success` or more, or if the neighbor is -1.",
+            "First set `cell` to `neighbors[cell, direction]` if it may go; then the "
+            "reward is 0 if `cell == goal`, else -1.",
+        ),
+        wrong=[
+            Wrong(
+                "walking through walls",
+                _through_walls,
+                "Behind a wall `neighbors` holds -1, which is no cell: the robot "
+                "stays.",
+            ),
+            Wrong(
+                "no move fails",
+                _never_fails,
+                "A move succeeds only if `luck < success`.",
+            ),
+            Wrong(
+                "lucky the wrong way round",
+                _fails_when_lucky,
+                "`luck` is drawn from 0 to 1; it lies *below* 0.9 nine times in ten.",
+            ),
+            Wrong(
+                "paid for where it was",
+                _pays_where_it_was,
+                "The reward belongs to the cell that the robot reaches.",
+            ),
+            Wrong(
+                "the other reward rule",
+                _paid_on_the_goal,
+                "That is 1 on the goal and 0 elsewhere. The paper pays 0 and -1.",
+            ),
+        ],
+    ),
+]

@@ -1,0 +1,194 @@
+"""Exercises of page 2: solving what is known."""
+
+import numpy as np
+
+from ._model import Wrong, function, value
+from ._read import numbers_of_actions
+
+
+def backup(reward, gamma, values_of_successors, probabilities):
+    """Return the value of a state from those of its successors, both (A, K)."""
+    expected = (probabilities * values_of_successors).sum(axis=1)
+    return reward + gamma * expected.max()
+
+
+def backup_by_loops(reward, gamma, values_of_successors, probabilities):
+    best = -np.inf
+    for v, p in zip(values_of_successors, probabilities, strict=True):
+        best = max(best, sum(a * b for a, b in zip(v, p, strict=True)))
+    return gamma * best + reward
+
+
+def _expected(v, p):
+    return (v * p).sum(axis=1)
+
+
+def _states(rng):
+    for n_actions, n_outcomes in ((2, 1), (1, 2), (2, 2), (3, 2), (4, 3)):
+        for gamma in (0.9, 0.99):
+            p = rng.random((n_actions, n_outcomes))
+            v = rng.uniform(-20, 5, (n_actions, n_outcomes)).round(1)
+            yield -1, gamma, v, p / p.sum(axis=1, keepdims=True)
+
+
+def greedy_set(q_row, tolerance):
+    """Return the actions whose value is within `tolerance` of the best."""
+    return np.flatnonzero(q_row >= np.max(q_row) - tolerance)
+
+
+def greedy_set_by_loop(q_row, tolerance):
+    best = max(q_row)
+    return {a for a, q in enumerate(q_row) if best - q <= tolerance}
+
+
+def _masked_as_zero(q_row, tolerance):
+    return greedy_set(np.where(np.isinf(q_row), 0, q_row), tolerance)
+
+
+def _rows(rng):
+    tiny = 1e-12
+    yield np.array([-3.0, -2.0, -2.0 - tiny, -np.inf]), 1e-9
+    yield np.array([1.0, 2.0 - tiny, 0.0, 2.0]), 1e-9
+    yield np.array([-1.0, -1.0, -1.0]), 1e-9
+    yield np.array([-2.5, -np.inf, -2.4, -2.0]), 0.45
+    for _ in range(12):
+        row = rng.integers(-4, 0, 6) * 1.0 + rng.choice([0, tiny], 6)
+        row[rng.integers(6)] = -np.inf
+        yield row, 1e-9
+
+
+EXERCISES = [
+    function(
+        "ex-2-1",
+        "Write `backup`, one Bellman backup of one state. `values_of_successors` and "
+        "`probabilities` have a row for each action and a column for each outcome. The "
+        "reward is that of the state itself.",
+        backup,
+        cases=_states,
+        same=(backup_by_loops,),
+        hints=(
+            "First say what each action is worth, then choose.",
+            "An action is worth the sum of probability times value over its outcomes.",
+            "It is `reward + gamma * best`, where `best` is the largest of "
+            "`(probabilities * values_of_successors).sum(axis=1)`.",
+        ),
+        wrong=[
+            Wrong(
+                "no discount",
+                lambda reward, gamma, v, p: reward + _expected(v, p).max(),
+                "What comes one step later counts `gamma` times as much.",
+            ),
+            Wrong(
+                "the reward is discounted too",
+                lambda reward, gamma, v, p: gamma * (reward + _expected(v, p).max()),
+                "The reward of this state counts in full; only what follows is "
+                "discounted.",
+            ),
+            Wrong(
+                "the best outcome instead of the expected one",
+                lambda reward, gamma, v, p: reward + gamma * v.max(),
+                "The robot chooses the action, but chance chooses the outcome.",
+            ),
+            Wrong(
+                "the mean over actions instead of the best",
+                lambda reward, gamma, v, p: reward + gamma * _expected(v, p).mean(),
+                "That is the value of drawing at random. The best driver chooses.",
+            ),
+            Wrong(
+                "the worst action",
+                lambda reward, gamma, v, p: reward + gamma * _expected(v, p).min(),
+                "Values are rewards, not costs: larger is better, also below 0.",
+            ),
+            Wrong(
+                "all outcomes alike",
+                lambda reward, gamma, v, p: reward + gamma * v.mean(axis=1).max(),
+                "Outcomes are not equally likely: weigh them with `probabilities`.",
+            ),
+        ],
+    ),
+    function(
+        "ex-2-2",
+        "Write `greedy_set`, which returns the numbers of all actions whose value is "
+        "within `tolerance` of the best. A masked action has the value -inf.",
+        greedy_set,
+        cases=_rows,
+        same=(
+            greedy_set_by_loop,
+            lambda q_row, tolerance: np.abs(q_row - q_row.max()) <= tolerance,
+        ),
+        read=numbers_of_actions,
+        hints=(
+            "More than one action can be best.",
+            "Numbers that should be equal may differ in the last digit: compare with "
+            "the largest value less the tolerance.",
+            "`np.flatnonzero(q_row >= q_row.max() - tolerance)`: why is -inf no "
+            "problem?",
+        ),
+        wrong=[
+            Wrong(
+                "the first best only",
+                lambda q_row, tolerance: [np.argmax(q_row)],
+                "`argmax` returns one action, the first. Where several tie, return "
+                "all.",
+            ),
+            Wrong(
+                "equal to the last digit",
+                lambda q_row, tolerance: np.flatnonzero(q_row == np.max(q_row)),
+                "Two values that should tie can differ by rounding: use the tolerance.",
+            ),
+            Wrong(
+                "the worst instead of the best",
+                lambda q_row, tolerance: np.flatnonzero(
+                    q_row <= np.min(q_row) + tolerance
+                ),
+                "Values are rewards, also below 0: the best is the largest.",
+            ),
+            Wrong(
+                "a masked action counts as 0",
+                _masked_as_zero,
+                "-inf says that an action may not be chosen. "
+                "Where all other values are below 0, a 0 would look best.",
+            ),
+            Wrong(
+                "the worst, masked ones left out",
+                lambda q_row, tolerance: np.flatnonzero(
+                    q_row <= np.min(q_row[np.isfinite(q_row)]) + tolerance
+                ),
+                "You return the worst of the allowed actions. The best is the largest.",
+            ),
+        ],
+    ),
+    value(
+        "ex-2-3",
+        "A corridor of 10 cells, the last is the goal; moves never fail. All values "
+        "start at their rewards: -1, and 0 on the goal. A sweep backs up every cell "
+        "from the values of the sweep before. After how many sweeps does the value of "
+        "the first cell change for the last time?",
+        8,
+        hints=(
+            "Which cells are right before the first sweep?",
+            "The cell beside the goal is right at the start: it costs 1. "
+            "Each sweep makes one more cell right.",
+            "Nine cells are not the goal, and one of them is right before any sweep.",
+        ),
+        wrong=[
+            Wrong(
+                "one too many",
+                9,
+                "The cell beside the goal needs no sweep: its reward is its value.",
+            ),
+            Wrong(
+                "the number of cells",
+                10,
+                "The goal and the cell beside it are right before the first sweep.",
+            ),
+            Wrong(
+                "all at once",
+                1,
+                "A sweep uses the values of the sweep before, so news travels one "
+                "cell.",
+            ),
+            Wrong("never", np.inf, "Without failing moves the values become exact."),
+        ],
+    ),
+]

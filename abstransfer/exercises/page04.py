@@ -1,0 +1,171 @@
+"""Exercises of page 4: forgetting on purpose."""
+
+import numpy as np
+
+from ._model import Wrong, function, value
+
+
+def abstract_state(features):
+    """Return the number whose bit f is feature f, counted from bit 0."""
+    return sum(int(x) << f for f, x in enumerate(features))
+
+
+def abstract_state_by_dot(features):
+    return np.dot(features, 2.0 ** np.arange(len(features)))
+
+
+def _weighted(weight):
+    return lambda features: sum(
+        x * weight(f, len(features)) for f, x in enumerate(features)
+    )
+
+
+def _views(rng):
+    yield (np.array([1, 0, 0]),)
+    yield (np.array([0, 1, 1]),)
+    yield (np.zeros(11, int),)
+    for _ in range(8):
+        yield (rng.integers(0, 2, 11),)
+
+
+def near_goal(cell, goal, width, near):
+    """Return whether a cell is within a Manhattan distance of the goal."""
+    rows = abs(cell // width - goal // width)
+    columns = abs(cell % width - goal % width)
+    return rows + columns <= near
+
+
+def near_goal_by_divmod(cell, goal, width, near):
+    (a, b), (c, d) = divmod(cell, width), divmod(goal, width)
+    return int(np.abs([a - c, b - d]).sum() < near + 1)
+
+
+def _apart(cell, goal, width):
+    return abs(cell // width - goal // width), abs(cell % width - goal % width)
+
+
+def _pairs(rng):
+    for width in (15, 30):
+        for _ in range(60):
+            cell, goal = (int(i) for i in rng.integers(0, 9 * width, 2))
+            yield cell, goal, width, 5
+    yield 0, 5, 15, 5
+    yield 0, 15 * 3 + 3, 15, 5
+
+
+EXERCISES = [
+    function(
+        "ex-4-1",
+        "Write `abstract_state`, which turns a list of features, each 0 or 1, into one "
+        "number: feature 0 is worth 1, feature 1 is worth 2, feature 2 is worth 4, ...",
+        abstract_state,
+        cases=_views,
+        same=(abstract_state_by_dot,),
+        hints=(
+            "Every list must get a number of its own.",
+            "Feature f is worth 2 to the power f; add up those that hold.",
+            "`sum(x * 2**f for f, x in enumerate(features))`, or shifts by f bits.",
+        ),
+        wrong=[
+            Wrong(
+                "counting the features",
+                _weighted(lambda f, n: 1),
+                "How many hold is not enough: [1, 0] and [0, 1] must differ.",
+            ),
+            Wrong(
+                "read from the other end",
+                _weighted(lambda f, n: 2 ** (n - 1 - f)),
+                "You give the *last* feature the weight 1. Here the first one has it.",
+            ),
+            Wrong(
+                "decimal digits",
+                _weighted(lambda f, n: 10**f),
+                "Each feature has two values, so each place is worth twice the one "
+                "before.",
+            ),
+            Wrong(
+                "weights from 2",
+                _weighted(lambda f, n: 2 ** (f + 1)),
+                "Feature 0 is worth 1, that is 2 to the power 0.",
+            ),
+            Wrong(
+                "adding the places",
+                _weighted(lambda f, n: f),
+                "Then feature 0 never counts, and 1 and 2 together look like 3.",
+            ),
+        ],
+    ),
+    function(
+        "ex-4-2",
+        "Write `near_goal`: is the Manhattan distance of the two cells at most `near`? "
+        "Cells are numbered row by row, `width` in a row. Walls do not count.",
+        near_goal,
+        cases=_pairs,
+        same=(near_goal_by_divmod,),
+        hints=(
+            "From a cell's number get its row and its column.",
+            "The row is `cell // width`, the column `cell % width`.",
+            "Rows apart plus columns apart, both without sign, is at most `near`.",
+        ),
+        wrong=[
+            Wrong(
+                "as the crow flies",
+                lambda cell, goal, width, near: (
+                    np.hypot(*_apart(cell, goal, width)) <= near
+                ),
+                "Manhattan distance goes along rows and columns: add the two, no "
+                "roots.",
+            ),
+            Wrong(
+                "at least instead of at most",
+                lambda cell, goal, width, near: sum(_apart(cell, goal, width)) >= near,
+                "So the paper's text says, and so a cell far away would be 'near'. "
+                "It must mean at most.",
+            ),
+            Wrong(
+                "the larger of the two distances",
+                lambda cell, goal, width, near: max(_apart(cell, goal, width)) <= near,
+                "A robot makes no diagonal moves: rows and columns add up.",
+            ),
+            Wrong(
+                "less than",
+                lambda cell, goal, width, near: sum(_apart(cell, goal, width)) < near,
+                "A distance of exactly `near` still is near.",
+            ),
+            Wrong(
+                "numbers of cells subtracted",
+                lambda cell, goal, width, near: abs(cell - goal) <= near,
+                "The cell below differs by a whole `width`, and is one step away. "
+                "The last cell of a row and the first of the next are far apart.",
+            ),
+        ],
+    ),
+    value(
+        "ex-4-3",
+        "How many abstract states occur among the cells of the source building, over "
+        "all tasks, goals left out?",
+        88,
+        hints=(
+            "Count different entries of `tasks.rho`.",
+            "Leave out the states in which `tasks.mdp.terminal` is true.",
+            "`len(np.unique(tasks.rho[~tasks.mdp.terminal]))`.",
+        ),
+        wrong=[
+            Wrong(
+                "all that can be written",
+                2048,
+                "11 features can be combined in 2 to the power 11 ways; most of them "
+                "never occur.",
+            ),
+            Wrong(
+                "the states",
+                1485,
+                "These are the states, 11 tasks of 135 cells. Many of them look alike.",
+            ),
+            Wrong(
+                "the goals counted", 89, "On the goal the task is over: leave it out."
+            ),
+            Wrong("the other building", 96, "That is the target building."),
+        ],
+    ),
+]

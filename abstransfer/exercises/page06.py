@@ -1,0 +1,249 @@
+"""Exercises of page 6: deducing, or climbing."""
+
+import numpy as np
+
+from ._model import Wrong, function, value
+
+
+def numerical_gradient(f, x):
+    """Return the derivative of f by each entry of x (n,), by central differences."""
+    h = 1e-5
+    slopes = [(f(x + h * e) - f(x - h * e)) / (2 * h) for e in np.eye(len(x))]
+    return np.array(slopes)
+
+
+def numerical_gradient_by_loop(f, x):
+    gradient, x = [], np.array(x, float)
+    for i in range(len(x)):
+        old, x[i] = x[i], x[i] + 1e-6
+        above = f(x)
+        x[i] = old
+        gradient.append((above - f(x)) / 1e-6)
+    return gradient
+
+
+def _not_divided(f, x):
+    return 2e-5 * numerical_gradient(f, x)
+
+
+def _divided_by_h(f, x):
+    return 2 * numerical_gradient(f, x)
+
+
+def _all_at_once(f, x):
+    slope = (f(x + 1e-5) - f(x - 1e-5)) / 2e-5
+    return np.full(len(x), slope)
+
+
+def _direction_only(f, x):
+    slopes = numerical_gradient(f, x)
+    return slopes / np.linalg.norm(slopes)
+
+
+def _too_large(f, x):
+    return np.array([f(x + e) - f(x) for e in np.eye(len(x))])
+
+
+def _sum_of_squares(x):
+    return float(np.sum(np.square(x)))
+
+
+def _product_of_sines(x):
+    return float(np.prod(np.sin(x)))
+
+
+def _mixed(x):
+    return float(x[0] ** 3 - 2 * x[0] * x[-1] + np.exp(0.3 * x[-1]))
+
+
+def _hills(rng):
+    for f in (_sum_of_squares, _product_of_sines, _mixed):
+        for n in (2, 4):
+            yield f, rng.uniform(0.3, 1.2, n).round(2)
+
+
+def assemble(d, q, rho, terminal, n_abstract, gamma):
+    """Return G (Z, A): gamma times the sum of d(s) q(s, a) over an abstract state."""
+    gradient = np.zeros((n_abstract, q.shape[1]))
+    for s in range(len(rho)):
+        if not terminal[s]:
+            gradient[rho[s]] += gamma * d[s] * q[s]
+    return gradient
+
+
+def assemble_by_matrix(d, q, rho, terminal, n_abstract, gamma):
+    member = np.eye(n_abstract)[rho] * np.where(terminal, 0, d)[:, None]
+    return gamma * member.T @ q
+
+
+def _averaged(d, q, rho, terminal, n_abstract, gamma):
+    n = np.bincount(rho[~terminal], minlength=n_abstract)[:, None]
+    return assemble(d, q, rho, terminal, n_abstract, gamma) / np.maximum(n, 1)
+
+
+def _weighted_mean(d, q, rho, terminal, n_abstract, gamma):
+    steps = np.bincount(rho, np.where(terminal, 0, d), minlength=n_abstract)[:, None]
+    steps = np.where(steps > 0, steps, 1)
+    return assemble(d, q, rho, terminal, n_abstract, gamma) / steps
+
+
+def _overwritten(d, q, rho, terminal, n_abstract, gamma):
+    gradient = np.zeros((n_abstract, q.shape[1]))
+    gradient[rho[~terminal]] += gamma * (d[:, None] * q)[~terminal]
+    return gradient
+
+
+def _unions(rng):
+    for n_states in (3, 6, 12, 20):
+        rho = rng.integers(0, 4, n_states)
+        rho[:2] = 1  # two states that look alike
+        terminal = np.arange(n_states) == n_states - 1
+        d, q = rng.uniform(0.2, 3, n_states), rng.uniform(-9, -1, (n_states, 2))
+        yield d.round(1), q.round(1), rho, terminal, 4, 0.99
+
+
+EXERCISES = [
+    function(
+        "ex-6-1",
+        "Write `numerical_gradient`: how fast the number `f(x)` grows with each entry "
+        "of the array `x`, by small differences.",
+        numerical_gradient,
+        cases=_hills,
+        same=(numerical_gradient_by_loop,),
+        tolerance=1e-3,
+        hints=(
+            "Change one entry of `x` a little, the others not at all.",
+            "Take `h = 1e-5`; compare `f` a step h above with `f` a step h below, and "
+            "divide by how far apart they are.",
+            "`(f(x + h * e) - f(x - h * e)) / (2 * h)` for each row `e` of "
+            "`np.eye(len(x))`.",
+        ),
+        wrong=[
+            Wrong(
+                "differences instead of slopes",
+                _not_divided,
+                "All nearly 0. Divide the difference of the values by the distance of "
+                "the "
+                "points; and if you do, is the step so small that x + h is x to the "
+                "computer? Doubles have 16 digits; take about 1e-5.",
+            ),
+            Wrong(
+                "half the distance",
+                _divided_by_h,
+                "From x - h to x + h the distance is 2 h.",
+            ),
+            Wrong(
+                "all entries at once",
+                _all_at_once,
+                "That is the slope along a diagonal. Change one entry at a time.",
+            ),
+            Wrong(
+                "the direction only",
+                _direction_only,
+                "You divide by the length at the end. How steep it is belongs to it.",
+            ),
+            Wrong(
+                "a giant step",
+                _too_large,
+                "Your step has length 1. A slope is what is left as the step gets "
+                "small.",
+            ),
+            Wrong(
+                "the sign",
+                lambda f, x: -numerical_gradient(f, x),
+                "Value above less value below, not the other way round.",
+            ),
+        ],
+    ),
+    function(
+        "ex-6-2",
+        "Write `assemble`, the gradient G (Z, A) from the visits d (S,), the action "
+        "values q (S, A) and the abstract state rho (S,) of each state. Terminal "
+        "states "
+        "have no part in it.",
+        assemble,
+        cases=_unions,
+        same=(assemble_by_matrix,),
+        hints=(
+            "Each state gives something to the row of its abstract state.",
+            "State s gives `gamma * d[s] * q[s]`. Which states give nothing?",
+            "`np.add.at(G, rho, gamma * d[:, None] * q)`, with d set to 0 where "
+            "`terminal` is true.",
+        ),
+        wrong=[
+            Wrong(
+                "no discount",
+                lambda d, q, rho, terminal, n, gamma: assemble(
+                    d, q, rho, terminal, n, 1
+                ),
+                "The action is taken now, what it leads to comes one step later: "
+                "gamma.",
+            ),
+            Wrong(
+                "no visits",
+                lambda d, q, rho, terminal, n, gamma: assemble(
+                    np.ones(len(d)), q, rho, terminal, n, gamma
+                ),
+                "A state that the robot is in more often counts more: weigh by d.",
+            ),
+            Wrong(
+                "a mean instead of a sum",
+                _averaged,
+                "The states of an abstract state add up: one knob moves all of them.",
+            ),
+            Wrong(
+                "divided by the visits",
+                _weighted_mean,
+                "That is the mean of q, and the *natural* gradient is made of it. The "
+                "gradient itself is the sum.",
+            ),
+            Wrong(
+                "the goal counts",
+                lambda d, q, rho, terminal, n, gamma: assemble(
+                    d, q, rho, np.zeros(len(d), bool), n, gamma
+                ),
+                "The episode ends in a terminal state: no action is taken there.",
+            ),
+            Wrong(
+                "G[rho] += ...",
+                _overwritten,
+                "Where two states look alike, this keeps one of them only. `np.add.at` "
+                "keeps both.",
+            ),
+        ],
+    ),
+    value(
+        "ex-6-3",
+        "An abstract state allows 3 of the 8 actions. The target of a step gives 0.95 "
+        "to "
+        "the best action and spreads 0.05 over all 8; what falls on impossible "
+        "actions is "
+        "given back in proportion. How likely is the best action?",
+        (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8),
+        tolerance=1e-4,
+        hints=(
+            "First ignore that some actions are impossible.",
+            "The best action has 0.95 + 0.05/8, the two others 0.05/8 each.",
+            "Divide the first of these by the sum of the three.",
+        ),
+        wrong=[
+            Wrong(
+                "not normalised",
+                0.95 + 0.05 / 8,
+                "Five actions are impossible. What is left must sum to 1: divide.",
+            ),
+            Wrong(
+                "the best gets no share of the 0.05",
+                0.95,
+                "The 0.05 is spread over all 8 actions, the best one included.",
+            ),
+            Wrong(
+                "spread over the possible ones",
+                0.95 + 0.05 / 3,
+                "The 0.05 is spread over all 8 first, then the impossible are left "
+                "out.",
+            ),
+            Wrong("no softness", 1, "A little is kept for the other actions."),
+        ],
+    ),
+]

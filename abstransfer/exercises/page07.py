@@ -1,0 +1,178 @@
+"""Exercises of page 7: the driving test."""
+
+import numpy as np
+
+from ._model import Wrong, function, value
+from ._read import word
+
+
+def evaluate(P, r, gamma):
+    """Return the value of each state: the solution of (I - gamma P) V = r."""
+    return np.linalg.solve(np.eye(len(r)) - gamma * P, r)
+
+
+def evaluate_by_sweeps(P, r, gamma):
+    v = np.zeros(len(r))
+    for _ in range(3000):
+        v = r + gamma * P @ v
+    return v
+
+
+def _loop_at_the_goal(P, r, gamma):
+    stuck = P + np.diag(P.sum(axis=1) == 0)
+    return evaluate(stuck, r, gamma)
+
+
+def _first_reward_free(P, r, gamma):
+    return gamma * P @ evaluate(P, r, gamma)
+
+
+def _reward_of_next_only(P, r, gamma):
+    return evaluate(P, P @ r, gamma)
+
+
+def _one_sweep(P, r, gamma):
+    return r + gamma * P @ r
+
+
+def _drivers(rng):
+    yield np.array([[0.1, 0.9], [0.0, 0.0]]), np.array([-1.0, 0.0]), 0.99
+    yield np.array([[0.1, 0.9], [0.0, 0.0]]), np.array([0.0, 1.0]), 0.9
+    for n in (3, 5, 8):
+        P = rng.random((n, n))
+        P /= P.sum(axis=1, keepdims=True)
+        P[-1] = 0
+        yield P, np.append(np.full(n - 1, -1.0), 1.0), 0.9
+
+
+EXERCISES = [
+    function(
+        "ex-7-1",
+        "Write `evaluate`, the value of each state for a driver with the moves P (S, "
+        "S) "
+        "and the rewards r (S,). The row of a goal in P is 0.",
+        evaluate,
+        cases=_drivers,
+        same=(
+            evaluate_by_sweeps,
+            lambda P, r, gamma: np.linalg.inv(np.eye(len(r)) - gamma * P) @ r,
+        ),
+        hints=(
+            "The value of a state stands on both sides of its equation.",
+            "Collect the unknowns on the left: V - gamma P V = r.",
+            "`np.linalg.solve(A, r)` with `A = np.eye(len(r)) - gamma * P`.",
+        ),
+        wrong=[
+            Wrong(
+                "no discount",
+                lambda P, r, gamma: evaluate(P, r, 1),
+                "What comes one step later counts gamma times as much.",
+            ),
+            Wrong(
+                "from where instead of to where",
+                lambda P, r, gamma: evaluate(P.T, r, gamma),
+                "The matrix is transposed. Row s of P says where s leads *to*.",
+            ),
+            Wrong(
+                "the goal goes on",
+                _loop_at_the_goal,
+                "You give the goal a move to itself, so its reward is paid for ever. "
+                "The "
+                "row of the goal is empty: the episode ends.",
+            ),
+            Wrong(
+                "the reward of now is missing",
+                _first_reward_free,
+                "V(s) begins with r(s), in full; only the rest is discounted.",
+            ),
+            Wrong(
+                "the reward of the next state",
+                _reward_of_next_only,
+                "Here the reward belongs to the state itself: r, not P r.",
+            ),
+            Wrong(
+                "one sweep is not the solution",
+                _one_sweep,
+                "You put r in place of V on the right. V itself stands there: solve.",
+            ),
+            Wrong(
+                "plus instead of minus",
+                lambda P, r, gamma: np.linalg.solve(np.eye(len(r)) + gamma * P, r),
+                "Bringing gamma P V to the other side changes its sign.",
+            ),
+        ],
+    ),
+    value(
+        "ex-7-2",
+        "What is the mean value, in the target building, of a robot that draws only "
+        "from "
+        "the actions available in each state?",
+        -93.88,
+        tolerance=1e-4,
+        hints=(
+            "It is a uniform policy over fewer actions.",
+            "`at.uniform_policy(target.available)` is the policy.",
+            "The mean of `at.evaluate_policy(target.mdp, policy)`, over all states.",
+        ),
+        wrong=[
+            Wrong(
+                "the wanderer",
+                -97.05,
+                "This one draws from all 8 actions, and waits where it sees nothing.",
+            ),
+            Wrong(
+                "goals left out",
+                -94.05,
+                "You average over the cells that are no goals. Table 1 counts all "
+                "cells.",
+            ),
+            Wrong(
+                "the other building",
+                -78.54,
+                "That is the source building; what is asked for is the target.",
+            ),
+            Wrong(
+                "the sign",
+                93.88,
+                "The size is right. But the robot pays, so its value is below 0.",
+            ),
+        ],
+    ),
+    value(
+        "ex-7-3",
+        "What is the mean value of Prob in the source building, if the actions are "
+        "compass directions?",
+        -81.6,
+        tolerance=1e-3,
+        hints=(
+            "Make the tasks of the source once more, with other actions.",
+            '`at.navigation_tasks(source_map, actions="compass")`.',
+            "Build its pages with `at.abstract_policies` and evaluate `prob` on them.",
+        ),
+        wrong=[
+            Wrong("the usual actions", -36.25, "These are the relational actions."),
+            Wrong("ND", -82.9, "That is ND. What is asked for is Prob."),
+            Wrong("Grad", -66.5, "That is Grad. What is asked for is Prob."),
+            Wrong("the paper's number", -36.91, "That is Prob in the paper's Table 1."),
+        ],
+    ),
+    value(
+        "ex-7-4",
+        "Does the order of the drivers depend on whether a move succeeds with "
+        'probability 1, 0.9 or 0.8? "yes" or "no"',
+        "no",
+        read=word,
+        hints=(
+            "Make the source tasks three times.",
+            "`at.navigation_tasks(source_map, success=success)`.",
+            "Compare the order of the four numbers in each line, not their size.",
+        ),
+        wrong=[
+            Wrong(
+                "the size for the order",
+                "yes",
+                "All values move, but does any driver overtake another?",
+            ),
+        ],
+    ),
+]

@@ -1,0 +1,146 @@
+"""Exercises of page 8: advice while learning."""
+
+import numpy as np
+
+from ._model import Wrong, function, value
+
+
+def advice_probability(t, tau):
+    """Return how likely advice is obeyed in step t = 1, 2, ..., soft strategy."""
+    if t > tau:
+        return 0.0
+    return (tau - t) / tau
+
+
+def advice_probability_hard(t, tau):
+    """Return how likely advice is obeyed in step t = 1, 2, ..., hard strategy."""
+    return 1.0 if t <= tau else 0.0
+
+
+def _steps(rng):
+    for tau in (1, 4, 10, 1000):
+        for t in {1, 2, 3, tau - 1, tau, tau + 1, 2 * tau} - {0}:
+            yield t, tau
+
+
+EXERCISES = [
+    function(
+        "ex-8-1",
+        "Write `advice_probability`: how likely does the soft strategy obey the advice "
+        "in step t, for t = 1, 2, ...? After step tau, never.",
+        advice_probability,
+        cases=_steps,
+        same=(
+            lambda t, tau: max(0, 1 - t / tau),
+            lambda t, tau: np.clip((tau - t) / tau, 0, 1),
+        ),
+        hints=(
+            "It falls along a straight line, and stays at 0.",
+            "Algorithm 2, line 4, has it for t up to tau.",
+            "(tau - t) / tau while t is at most tau, else 0.",
+        ),
+        wrong=[
+            Wrong(
+                "the sign",
+                lambda t, tau: (t - tau) / tau if t <= tau else 0,
+                "That is below 0; a probability lies from 0 to 1.",
+            ),
+            Wrong(
+                "divided by t",
+                lambda t, tau: (tau - t) / t if t <= tau else 0,
+                "At t = 1 that is tau - 1, no probability: divide by tau.",
+            ),
+            Wrong(
+                "counted from 0",
+                lambda t, tau: max(0, (tau - t + 1) / tau),
+                "You give the first step probability 1. Steps are counted from 1, and "
+                "the paper's line 4 uses t itself.",
+            ),
+            Wrong(
+                "negative after tau",
+                lambda t, tau: (tau - t) / tau,
+                "After step tau your value falls below 0. There the advice has no say.",
+            ),
+            Wrong(
+                "its own ways instead of the advice",
+                lambda t, tau: min(1, t / tau),
+                "That is 1 - lambda, how likely the robot goes its own way.",
+            ),
+            Wrong(
+                "hard instead of soft",
+                advice_probability_hard,
+                "That is the hard strategy: all, then nothing. Soft fades.",
+            ),
+            Wrong(
+                "never quite 0 at tau",
+                lambda t, tau: max(0, (tau + 1 - t) / (tau + 1)),
+                "In step t = tau the probability is 0 already.",
+            ),
+        ],
+    ),
+    function(
+        "ex-8-2",
+        "Write `advice_probability_hard`: the same for the hard strategy.",
+        advice_probability_hard,
+        cases=_steps,
+        same=(lambda t, tau: t <= tau, lambda t, tau: int(not t > tau)),
+        hints=(
+            "All, then nothing.",
+            "Look at the conditions of both loops in Algorithm 1.",
+            "1 while t is at most tau, else 0.",
+        ),
+        wrong=[
+            Wrong(
+                "off by one at t = tau",
+                lambda t, tau: float(t < tau),
+                "Algorithm 1 obeys for t up to tau, step tau included.",
+            ),
+            Wrong(
+                "one step too long",
+                lambda t, tau: float(t <= tau + 1),
+                "You still obey in step tau + 1.",
+            ),
+            Wrong(
+                "the wrong way round",
+                lambda t, tau: float(t > tau),
+                "Advice comes first, learning on its own afterwards.",
+            ),
+            Wrong(
+                "soft instead of hard",
+                advice_probability,
+                "That is the soft strategy, which fades.",
+            ),
+            Wrong(
+                "for ever",
+                lambda t, tau: 1.0,
+                "After step tau the advice has no say any more.",
+            ),
+        ],
+    ),
+    value(
+        "ex-8-3",
+        "A soft guide has tau = 6 million. In how many million steps is it obeyed, on "
+        "average?",
+        3,
+        tolerance=1e-3,
+        hints=(
+            "Add up the probabilities of all steps.",
+            "They fall along a straight line from almost 1 to 0.",
+            "A triangle has half the area of its rectangle.",
+        ),
+        wrong=[
+            Wrong("hard instead of soft", 6, "So often the hard strategy would obey."),
+            Wrong(
+                "steps, not millions",
+                2_999_999.5,
+                "Right, but the answer is asked for in millions.",
+            ),
+            Wrong("of all steps", 0.1, "That is the share of the 30 million steps."),
+            Wrong(
+                "the rest of the run",
+                24,
+                "These are the steps in which it has no say at all.",
+            ),
+        ],
+    ),
+]

@@ -1,0 +1,77 @@
+"""Exercises of page 9: Figures 3 and 4."""
+
+from ._model import Wrong, value
+
+EXERCISES = [
+    value(
+        "ex-9-1",
+        "The goals of a run vary by 2 percent from run to run (one standard "
+        "deviation). "
+        "By how many percent does the mean of 50 runs vary?",
+        2 / 50**0.5,
+        tolerance=2e-2,
+        hints=(
+            "A mean of many runs varies less than one run. By which factor?",
+            "Variances add up; the standard deviation of a mean of n runs falls with "
+            "the square root of n.",
+            "2 divided by the square root of 50.",
+        ),
+        wrong=[
+            Wrong("no gain from repeats", 2, "That is the spread of one run."),
+            Wrong("divided by n", 2 / 50, "Divide by the square root of the number."),
+            Wrong(
+                "a sum, not a mean", 2 * 50**0.5, "The sum varies more, a mean less."
+            ),
+            Wrong(
+                "an interval, not a deviation",
+                4 / 50**0.5,
+                "That is half of a 95 percent interval; asked is one standard "
+                "deviation.",
+            ),
+        ],
+    ),
+    value(
+        "ex-9-2",
+        "Arm X reached 3, 5 and 7 goals in three runs, arm Y 4, 4 and 6. How likely "
+        "is a "
+        "run of X to reach more goals than a run of Y, a tie counting half?",
+        5 / 9,
+        tolerance=1e-2,
+        hints=(
+            "Any run of X can meet any run of Y.",
+            "There are nine pairs. In how many is X ahead?",
+            "3 beats none, 5 beats both 4s, 7 beats all three.",
+        ),
+        wrong=[
+            Wrong(
+                "runs in the order they are written",
+                2 / 3,
+                "The runs are independent: the first of X is no partner of the first "
+                "of Y.",
+            ),
+            Wrong(
+                "the better mean is always ahead", 1, "A better mean can still lose."
+            ),
+            Wrong("a tie", 1 / 2, "Count the pairs; they are not balanced."),
+            Wrong("the other arm", 4 / 9, "That is how likely Y is ahead of X."),
+        ],
+    ),
+    value(
+        "ex-9-3",
+        "How many points does each curve of Figure 4 have?",
+        60,
+        hints=(
+            "Each point is a mean over 500,000 steps.",
+            "The experiment has 30 million steps.",
+            "30 million divided by half a million.",
+        ),
+        wrong=[
+            Wrong("a point per run", 50, "The 50 runs are averaged into one curve."),
+            Wrong(
+                "a point per million", 30, "A point stands for half a million steps."
+            ),
+            Wrong("all runs", 3000, "The 50 runs are averaged into one curve."),
+            Wrong("both ends", 61, "Windows are counted, not the marks between them."),
+        ],
+    ),
+]
