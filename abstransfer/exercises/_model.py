@@ -74,8 +74,10 @@ def exercises_of(page: int) -> dict[str, Exercise]:
 
 
 def page_of(key) -> int | None:
-    """Return the page that an id such as ex-3-1 names, or None."""
-    match = re.fullmatch(r"ex-(\d{1,2})-\d+", key) if isinstance(key, str) else None
+    """Return the page that an id such as ex-3-1 or ex-3-1b names, or None."""
+    match = (
+        re.fullmatch(r"ex-(\d{1,2})-\d+[b-z]?", key) if isinstance(key, str) else None
+    )
     return int(match[1]) if match else None
 
 

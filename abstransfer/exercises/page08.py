@@ -118,7 +118,7 @@ EXERCISES = [
         ],
     ),
     value(
-        "ex-8-3",
+        "ex-8-1b",
         "A soft guide has tau = 6 million. In how many million steps is it obeyed, on "
         "average?",
         3,

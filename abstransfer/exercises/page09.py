@@ -5,6 +5,70 @@ from ._model import Wrong, value
 EXERCISES = [
     value(
         "ex-9-1",
+        "The interval of a mean is to become a tenth as wide. How many times as many "
+        "lives "
+        "does that take?",
+        100,
+        hints=(
+            "The width falls as the number of lives grows, but not as fast.",
+            "The mean of n lives varies by the spread of one, over the root of n.",
+            "The root must grow tenfold.",
+        ),
+        wrong=[
+            Wrong(
+                "no root", 10, "Ten times the lives narrow it by the root of 10 only."
+            ),
+            Wrong("the root of ten", 10**0.5, "The root must be 10, not the number."),
+            Wrong("the third power", 1000, "The root of 1,000 is about 32: too much."),
+            Wrong("lives, not times", 5000, "So many lives in all; how many times 50?"),
+        ],
+        tolerance=1e-2,
+    ),
+    value(
+        "ex-9-2",
+        "The lives of two arms are spread alike, and the correlation of partners is "
+        "0.75. "
+        "How wide is the interval in pairs, as a share of that with wrong partners?",
+        0.5,
+        hints=(
+            "What partners share drops out of their difference.",
+            "The variance of a difference is 2 (1 - r) times that of one life.",
+            "Without pairs r is 0. Take the root of 1 - r.",
+        ),
+        wrong=[
+            Wrong(
+                "no root", 0.25, "That is the ratio of the variances; take the root."
+            ),
+            Wrong("the correlation itself", 0.75, "What is shared drops out: 1 - r."),
+            Wrong("the root of r", 0.75**0.5, "What is shared drops out: 1 - r."),
+            Wrong("pairs add nothing", 1, "That would be so for a correlation of 0."),
+        ],
+        tolerance=1e-2,
+    ),
+    value(
+        "ex-9-3",
+        "Somebody looks after every life from the fifth to the fiftieth. How many "
+        "looks "
+        "are that?",
+        46,
+        hints=(
+            "Count the first look and the last.",
+            "From 5 to 6 there are two looks.",
+            "50 - 5 + 1.",
+        ),
+        wrong=[
+            Wrong(
+                "off by one", 45, "Both ends count: from 5 to 6 there are two looks."
+            ),
+            Wrong("all lives", 50, "There is no look after the first four."),
+            Wrong(
+                "one look", 1, "That would be fair, and wrong in 5 percent of cases."
+            ),
+            Wrong("off by one, the other way", 44, "Both ends count."),
+        ],
+    ),
+    value(
+        "ex-9-1b",
         "The goals of a run vary by 2 percent from run to run (one standard "
         "deviation). "
         "By how many percent does the mean of 50 runs vary?",
@@ -31,7 +95,7 @@ EXERCISES = [
         ],
     ),
     value(
-        "ex-9-2",
+        "ex-9-2b",
         "Arm X reached 3, 5 and 7 goals in three runs, arm Y 4, 4 and 6. How likely "
         "is a "
         "run of X to reach more goals than a run of Y, a tie counting half?",
@@ -57,7 +121,7 @@ EXERCISES = [
         ],
     ),
     value(
-        "ex-9-3",
+        "ex-9-3b",
         "How many points does each curve of Figure 4 have?",
         60,
         hints=(
