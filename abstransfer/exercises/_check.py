@@ -29,7 +29,7 @@ class Reply:
         return textwrap.fill(f"{self.key}: {self.verdict}. {self.text}", 79)
 
     def _repr_markdown_(self) -> str:
-        return f"**{self.key}: {self.verdict}.** {self.text}"
+        return f"**{self.key}: {self.verdict}.** {self.text}".strip()
 
 
 def check(key: str, answer=NOT_GIVEN) -> Reply:
