@@ -43,13 +43,14 @@ def wait_for_parts(process, folder, n=3):
 
 
 def wait_for_the_end_of(group):
-    """Wait until no process of a group is left."""
+    """Wait until no process of a group is left; end those that stay, and fail."""
     for _ in range(500):
         try:
             os.killpg(group, 0)
         except ProcessLookupError:
             return
         time.sleep(0.02)
+    os.killpg(group, signal.SIGKILL)
     pytest.fail("a worker went on after its parent had ended")
 
 
@@ -202,12 +203,13 @@ def test_killed_and_resumed_equals_uninterrupted_to_the_byte(
     process = start(*command)
     wait_for_parts(process, tmp_path)
     process.kill()  # SIGKILL: nothing can be tidied up
+    process.wait()
+    wait_for_the_end_of(process.pid)
     process.communicate()
     done = {path.name: path.stat().st_mtime_ns for path in tmp_path.glob("parts/*.npz")}
 
     assert done
     assert not (tmp_path / "goals.csv.gz").exists(), "it ended before it was killed"
-    wait_for_the_end_of(process.pid)
     kept = {name: (tmp_path / "parts" / name).read_bytes() for name in done}
     assert main(command) == 0
     assert kept.keys() == done.keys()
@@ -222,7 +224,7 @@ def test_ctrl_c_ends_with_130_and_says_how_to_go_on(tmp_path):
     process = start(*PAGE, "--runs", "18", "--out", str(tmp_path))
     wait_for_parts(process, tmp_path, 1)
     os.killpg(process.pid, signal.SIGINT)  # a terminal sends it to the whole group
-    _, err = process.communicate()
+    _, err = process.communicate(timeout=60)
 
     assert process.returncode == 130
     assert "the same command goes on from there" in err
@@ -236,7 +238,7 @@ def test_a_dead_worker_ends_with_a_message(tmp_path):
     wait_for_parts(process, tmp_path, 1)
     for worker in workers(process.pid):
         os.kill(worker, signal.SIGKILL)
-    _, err = process.communicate()
+    _, err = process.communicate(timeout=60)
 
     assert process.returncode == 2
     assert "a worker process died" in err

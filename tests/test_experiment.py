@@ -4,13 +4,14 @@ import gzip
 import json
 import os
 import socket
+import threading
 from concurrent.futures import Executor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from conftest import unavailable
 
-from abstransfer import read_map
+from abstransfer import read_map, workers
 from abstransfer.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
 from abstransfer.experiment import run_experiment
 from abstransfer.learning import q_learning
@@ -119,6 +120,21 @@ def test_seeds_that_tune_are_none_of_those_that_report(expected):
     tuning = run(stream="tune")
 
     assert not (tuning.goals == expected.goals).all(axis=2).any()
+
+
+def test_a_worker_that_is_told_to_stop_leaves_its_job(monkeypatch):
+    job = workers.Job(READING, "hard", 0, None, SMALL, (np.random.SeedSequence(1),))
+    monkeypatch.setattr(workers, "STOP", threading.Event())
+    calls = []
+
+    def after_the_first_window(n_steps):
+        calls.append(n_steps)
+        if n_steps:
+            workers.STOP.set()
+
+    with pytest.raises(InterruptedError):
+        workers.run_job(job, after_the_first_window)
+    assert calls == [0, SMALL.window]
 
 
 def test_own_guides_can_be_passed():
