@@ -88,7 +88,7 @@ def make_figures(
 
 
 def finished_experiments(folder: str | Path) -> dict[str, Results]:
-    """Return the finished experiments in a folder, or in its folders, by name."""
+    """Return the finished experiments in a folder, or in its folders, "goal" first."""
     folder = Path(folder)
     records = [folder / RECORD, *sorted(folder.glob(f"*/{RECORD}"))]
     found = {}
@@ -103,7 +103,13 @@ def finished_experiments(folder: str | Path) -> dict[str, Results]:
             f"{folder}: no finished experiment here; make one with: "
             "abstransfer experiment --out DIR"
         )
-    return found
+    return dict(sorted(found.items(), key=lambda item: _place(item[1])))
+
+
+def _place(results: Results) -> tuple:
+    """Return what experiments are sorted by."""
+    name = experiment_name(results)
+    return not name.startswith("goal"), name
 
 
 def figure3(results: Results):

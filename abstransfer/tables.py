@@ -121,6 +121,7 @@ def tau_table(tunings: Iterable[Tuning]) -> list[dict]:
             "as_good": " ".join(f"{tau / MILLION:g}" for tau in t.as_good),
             "paper_tau": t.paper and f"{t.paper / MILLION:g}",
             "paper_inside": t.paper and ("no", "yes")[t.paper_inside],
+            "best_at_edge": ("no", "yes")[t.at_edge],
             "goals_at_best": round(float(t.goals.estimate.max()), 1),
         }
         | _ends("gain_of_paper_tau", t.paper_gain or Interval(*[np.nan] * 3), 4)

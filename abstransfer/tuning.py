@@ -41,6 +41,11 @@ class Tuning(NamedTuple):
         """Whether the paper's tau is one of those that may be the best."""
         return self.paper in self.as_good
 
+    @property
+    def at_edge(self) -> bool:
+        """Whether the best is at an end of the grid, so that it may lie beyond."""
+        return self.best in (self.taus[0], self.taus[-1])
+
 
 def tune(results: Results, *, rng=0) -> tuple[Tuning, ...]:
     """

@@ -8,10 +8,22 @@ import pytest
 
 from abstransfer.arms import ARMS, Scale, tau_cells
 from abstransfer.claims import CLAIMS
-from abstransfer.figures import effect_text, make_figures
+from abstransfer.figures import (
+    effect_text,
+    findings_table,
+    make_figures,
+    verdicts_table,
+)
+from abstransfer.ledger import ledger
 from abstransfer.plan import make_plan, parameters
 from abstransfer.reading import Reading
-from abstransfer.results import Results, save_results
+from abstransfer.results import (
+    Results,
+    load_results,
+    read_results,
+    save_results,
+    stored_results,
+)
 from abstransfer.stats import Interval
 from abstransfer.verdicts import HOLDS, Finding
 
@@ -122,7 +134,35 @@ def test_the_ledger_has_every_claim_under_every_convention(made):
     assert {row["claim"] for row in rows} == {claim.key for claim in CLAIMS}
     for claim in CLAIMS:
         assert f"> {claim.quote}" in text
-    assert text.count("| cost, target | goal, target |") == 1 + len(CLAIMS)
+    assert text.count("| goal, target | cost, target |") == 1 + len(CLAIMS)
+
+
+def test_verdicts_and_findings_stand_side_by_side(results):
+    ledgers = {name: ledger(load_results(results / name)) for name in ("goal", "cost")}
+
+    verdicts, findings = verdicts_table(ledgers), findings_table(ledgers, "2")
+
+    for i, (row, claim) in enumerate(zip(verdicts, CLAIMS, strict=True)):
+        assert row["claim"] == f"{claim.key}. {claim.title}"
+        assert row["cost"] == ledgers["cost"][i].verdict
+    assert list(findings[0]) == ["finding", "goal", "cost"]
+    assert [row["finding"].endswith("(condition)") for row in findings] == [0, 0, 0, 1]
+    assert findings[1]["goal"].endswith(f": {ledgers['goal'][1].findings[1].verdict}")
+    with pytest.raises(KeyError, match="no claim '7'"):
+        findings_table(ledgers, "7")
+
+
+def test_stored_results_are_read_by_name(results, monkeypatch, tmp_path):
+    monkeypatch.setattr("abstransfer.results.DATA", tmp_path)
+    with pytest.raises(FileNotFoundError, match="package: none"):
+        read_results("goal")
+    (tmp_path / "results").symlink_to(results)
+
+    assert stored_results() == ("cost", "goal", "grid")
+    expected = load_results(results / "goal").goals
+    np.testing.assert_array_equal(read_results("goal").goals, expected)
+    with pytest.raises(FileNotFoundError, match="'unfinished'.* cost, goal, grid"):
+        read_results("unfinished")
 
 
 def test_the_table_of_tau_has_every_guided_arm(made):

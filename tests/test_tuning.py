@@ -73,6 +73,11 @@ def test_pairing_tells_apart_what_shared_luck_would_hide():
     assert hard.as_good == (6_000_000,)
 
 
+@pytest.mark.parametrize(("tau", "at_edge"), [(500_000, True), (9_000_000, False)])
+def test_a_best_tau_at_the_end_of_the_grid_is_told(tau, at_edge):
+    assert tune(grid(lambda t: 1000 - abs(t - tau) / 1e4, 1))[0].at_edge == at_edge
+
+
 def test_tuned_arms_take_the_best_tau_and_leave_q_learning_alone():
     arms = tuned_arms(tune(grid(peak, noise=1)))
 
