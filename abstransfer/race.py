@@ -1,0 +1,83 @@
+"""
+A race: robots with and without advice learn in any building, features or tasks.
+
+It is the experiment of page 9 for a building of your own; page 11 of the book
+teaches this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from ._settings import whole
+from .learning import q_learning_runs
+from .navigation import NavigationTasks
+from .plan import SEED
+from .policies import restrict_policy
+
+
+class Race(NamedTuple):
+    """What was run, and the goals of each run."""
+
+    tasks: NavigationTasks  # where the robots learned
+    guides: dict[str, np.ndarray]  # abstract policies (Z, A)
+    goals: dict[str, np.ndarray]  # (N,) goals of each run; "none" is Q-learning
+    steps: int
+    tau: int
+    strategy: str
+    seed: int
+
+
+def race(
+    tasks: NavigationTasks,
+    guides: Mapping[str, np.ndarray],
+    *,
+    steps: int,
+    tau: int,
+    strategy: str = "hard",
+    n_runs: int = 20,
+    seed: int = SEED,
+) -> Race:
+    """
+    Let robots with each of the guides, and one without, learn in a building.
+
+    Parameters
+    ----------
+    tasks : NavigationTasks
+        Made with ``reward="goal"``, unless it is the reward that you study.
+    guides : dict from name to ndarray (Z, A)
+        Abstract policies over the abstract states of `tasks`.
+    steps, tau, strategy
+        As for :func:`~abstransfer.learning.q_learning`.
+    n_runs, seed
+        Run i of every robot draws from ``SeedSequence(seed, spawn_key=(0, i))``.
+
+    >>> from abstransfer import navigation_tasks, parse_map, uniform_policy
+    >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"), reward="goal")
+    >>> go = {"eager": uniform_policy(tasks.possible)}
+    >>> race(tasks, go, steps=100, tau=100, n_runs=1).goals["eager"] > 80
+    array([ True])
+    """
+    for name in {"none", "optimal"} & set(guides):
+        raise ValueError(f"no guide may be called {name!r}: that robot has none")
+    if n_runs < 1:
+        raise ValueError(f"n_runs must be at least 1, got {n_runs}")
+    steps, tau = whole("steps", steps, 1), whole("tau", tau, 0)
+    shape = tasks.possible.shape
+    goals = {}
+    for name, guide in {"none": None, **guides}.items():
+        options = {}
+        if guide is not None:
+            if np.shape(guide) != shape:
+                raise ValueError(
+                    f"guide {name!r} must have shape {shape}, got {np.shape(guide)}"
+                )
+            policy = restrict_policy(guide[tasks.rho], tasks.mdp.allowed)
+            options = {"guide": policy, "tau": tau, "strategy": strategy}
+        seeds = [np.random.SeedSequence(seed, spawn_key=(0, i)) for i in range(n_runs)]
+        runs = q_learning_runs(tasks.mdp, steps, rngs=seeds, window=steps, **options)
+        goals[name] = np.array([run.goals.sum() for run in runs])
+    return Race(tasks, dict(guides), goals, steps, tau, strategy, seed)
