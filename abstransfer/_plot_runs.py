@@ -171,5 +171,6 @@ def _label_ends(ax, x, x_max, ends: Mapping[str, float]):
     for (arm, y), at in zip(ends.items(), places, strict=True):
         style = arm_style(arm)
         line = {"arrowstyle": "-", "color": style.color, "linewidth": 0.6, "shrinkA": 0}
+        line["relpos"] = (0, 0.5)  # to the left end of the name, not through it
         look = {"color": style.color, "fontsize": SMALL, "va": "center"}
         ax.annotate(style.name, (x, y), (x_max * 1.1, at), arrowprops=line, **look)

@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ._paths import DATA
 from .arms import Arm
 
 TABLE, RECORD, PARTS = "goals.csv.gz", "experiment.json", "parts"
@@ -92,6 +93,29 @@ def load_results(folder: str | Path) -> Results:
         raise ValueError(f"{folder / TABLE}: not the table that {RECORD} speaks of")
     goals = np.array([int(value) for _, _, value in rows]).reshape(shape)
     return Results(arms, goals, record)
+
+
+def read_results(name: str) -> Results:
+    """
+    Return the results that come with the package, by name.
+
+    Raises FileNotFoundError naming those there are.
+
+    >>> read_results("goal-target").goals.shape  # arms, runs, windows
+    (9, 50, 60)
+    """
+    if name not in (names := stored_results()):
+        raise FileNotFoundError(
+            f"no results {name!r}; results that come with the package: "
+            + (", ".join(names) or "none")
+        )
+    return load_results(DATA / "results" / name)
+
+
+def stored_results() -> tuple[str, ...]:
+    """Return the names of the results that come with the package."""
+    tables = sorted((DATA / "results").glob(f"*/{TABLE}"))
+    return tuple(path.parent.name for path in tables)
 
 
 def read_record(folder: Path) -> dict | None:
