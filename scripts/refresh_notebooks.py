@@ -8,8 +8,9 @@ Run the book's notebooks and store their outputs, the same bytes every time.
 
 What differs from run to run is settled: times are dropped, the pieces of a
 printed stream are joined, and the random names of widgets become numbers in
-the order of their use.  The alt text that a figure brings along ("alt" in the
-metadata of its output) is put where the builder of the book looks for it.
+the order of their use.  Of a scene only its HTML is kept: the widget would carry
+all scripts.  The alt text that a figure brings along ("alt" in the metadata of its
+output) is put where the builder of the book looks for it.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from nbclient import NotebookClient
 
 BOOK = Path(__file__).parents[1] / "book"
 RANDOM_NAME = re.compile(r"(?<![0-9a-f])[0-9a-f]{32}(?![0-9a-f])")
+WIDGET = "application/vnd.jupyter.widget-view+json"
 WIDGETS = "application/vnd.jupyter.widget-state+json"
 METADATA = {
     "kernelspec": {
@@ -64,6 +66,7 @@ def settled(notebook) -> str:
         cell.metadata.pop("execution", None)
         if cell.cell_type == "code":
             cell.outputs = join_streams(cell.outputs)
+            drop_scenes(cell.outputs, widgets["state"])
             take_alt_text(cell)
     names = numbered(nbformat.writes(notebook), widgets["state"])
     if widgets["state"]:
@@ -111,6 +114,16 @@ def join_streams(outputs: list) -> list:
         else:
             joined.append(output)
     return joined
+
+
+def drop_scenes(outputs: list, state: dict) -> None:
+    """Drop the widget of each output that has a form in HTML, with its layout."""
+    for output in outputs:
+        data = output.get("data", {})
+        if "text/html" in data and WIDGET in data:
+            name = data.pop(WIDGET)["model_id"]
+            layout = state.pop(name, {}).get("state", {}).get("layout", "")
+            state.pop(layout.removeprefix("IPY_MODEL_"), None)
 
 
 def take_alt_text(cell) -> None:

@@ -10,7 +10,13 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 
 sys.path.insert(0, str(ROOT / "scripts"))
 import refresh_notebooks
-from refresh_notebooks import join_streams, numbered, settled, take_alt_text
+from refresh_notebooks import (
+    drop_scenes,
+    join_streams,
+    numbered,
+    settled,
+    take_alt_text,
+)
 
 A, B, C, D = (letter * 32 for letter in "abcd")
 WIDGETS = """
@@ -50,6 +56,21 @@ def test_pieces_of_one_stream_are_joined():
     ]
 
     assert [o["text"] for o in join_streams(pieces)] == ["ab", "c", "d"]
+
+
+def test_of_a_scene_only_its_html_is_kept():
+    state = {A: {"state": {"layout": f"IPY_MODEL_{B}"}}, B: {}, C: {}, D: {}}
+    view = "application/vnd.jupyter.widget-view+json"
+    scene, slider = (
+        new_output("display_data", data={view: {"model_id": name}}) for name in (A, C)
+    )
+    scene["data"]["text/html"] = "<div></div>"
+
+    drop_scenes([scene, slider, new_output("stream", text="")], state)
+
+    assert scene["data"] == {"text/html": "<div></div>"}
+    assert slider["data"] == {view: {"model_id": C}}
+    assert set(state) == {C, D}
 
 
 def test_the_alt_text_of_a_figure_reaches_the_cell():

@@ -1,0 +1,223 @@
+// Map Studio, page 1: draw a building, walk a robot through it, and see what the
+// abstraction and Table 1 make of it.
+
+(function studio(at) {
+  "use strict";
+
+  const MANY = 1500; // cells: from here on, solving waits to be asked for
+  const SHOWN = {
+    plain: "the building", states: "abstract states", nd: "ND", prob: "Prob", grad: "Grad",
+    optimal: "optimal",
+  };
+
+  at.scene("studio", {
+    title: "Map Studio",
+    state: {
+      text: at.mapTexts?.source ?? "", tool: "walk", show: "plain", task: 7, start: 80,
+      walk: "EENNW", bet: "",
+    },
+    limits: {
+      tool: ["walk", "wall", "door", "room", "corridor", "goal"], show: Object.keys(SHOWN),
+      task: [0, 10], start: [0, 134], bet: ["", "rand", "nd", "prob", "grad", "optimal", "skip"],
+    },
+    local: ["bet"],
+
+    build(scene) {
+      const { ui, studio: rules } = at;
+      const { make, number } = ui;
+      const rows = Object.fromEntries(at.ROWS.map((row) => [row, ui.armStyle(row).name]));
+      const me = { map: null, text: null, walked: null, read, walk };
+      let [problem, bad, tasks, pointed] = ["", [], null, null];
+      let [found, first, isAsked, timer] = [null, null, false, null];
+
+      const tools = rules.makeTools(scene, me);
+      const view = (me.view = ui.building({
+        label: "The building", onAct: tools.act, onKey: tools.press, keys: tools.keys,
+        describe: (cell) => rules.describe(me.map, cell, me.walked?.cell),
+        onPoint: (cell) => {
+          pointed = cell;
+          showCell();
+        },
+      }));
+      tools.listen(view);
+      const [legal, counts, seen, told] = [1, 2, 3, 4].map(() => make("p", {}));
+      const lines = make("tbody");
+      const bars = ui.barChart({
+        label: "Table 1: mean value of a cell", format: (x) => number(x, 2), low: -100, high: 0,
+      });
+      const solve = ui.button("Large building: solve it", () => {
+        isAsked = true;
+        begin();
+        scene.redraw();
+      }, { primary: true });
+      const head = ["action a", "next cell s′", "chance", "reward r"];
+      const columns = make("div", {},
+        make("div", { class: "ab-body" }, view.node, legal, counts),
+        make("div", { class: "ab-body" }, told, seen,
+          make("table", {},
+            make("thead", {}, make("tr", {}, head.map((text) => make("th", { scope: "col" }, text)))), lines)),
+      );
+      scene.add(
+        tools.bar, columns,
+        scene.choice("show", { label: "In the cells, for the task with the lit goal", options: SHOWN }),
+        make("p", {}, "Table 1, rebuilt for this building: mean value of a cell. Rings: the paper's numbers."),
+        solve.node, bars.node,
+        scene.bet("bet", {
+          question: "Bet first, then edit: which row moves most when the building changes?", options: rows,
+        }),
+        tools.files,
+      );
+
+      // ---- the building, legal or not
+
+      // Take a text; keep the last building where it draws none.
+      function read() {
+        const { text } = scene.state;
+        const before = me.map;
+        if (text === me.text) return;
+        me.text = text;
+        [problem, bad] = ["", []];
+        try {
+          me.map = at.drawMap(text).map;
+          at.parseMap(me.map.text);
+        } catch ({ message, row, column }) {
+          problem = message;
+          bad = [row - 1, row, row + 1].flatMap((r) => [column - 1, column, column + 1].map((c) => [r, c]));
+        }
+        const map = (me.map ??= at.parseMap(at.mapTexts.source));
+        const isInside = ([r, c]) => r % 2 && c % 2 && r > 0 && c > 0 && r < 2 * map.height && c < 2 * map.width;
+        bad = bad.filter(isInside).map(([r, c]) => ((r - 1) / 2) * map.width + (c - 1) / 2);
+        if (before && before.text !== map.text) tools.remember(before.text);
+        view.map(map);
+        columns.classList.toggle("ab-columns", map.width <= 20);
+        if (!problem) {
+          scene.limit("task", [0, map.goals.length - 1]);
+          scene.limit("start", [0, map.nCells - 1]);
+        }
+        isAsked = false;
+        legal.classList.toggle("ab-now", Boolean(problem));
+        legal.textContent = problem ? `Not legal yet: ${problem}.` : "A legal building.";
+        if (problem) scene.say(legal.textContent);
+        tools.write(text);
+      }
+
+      // Solve in slices, so that the page stays free; a new building ends it.
+      const isPaused = () => me.map.nCells > MANY && !isAsked;
+      function begin() {
+        clearTimeout(timer);
+        found = null;
+        if (problem || isPaused()) return;
+        const job = rules.solving(me.map);
+        const slice = () => {
+          const { last, done } = at.runFor(job, 15);
+          found = last ?? found;
+          if (isDone()) first ??= { ...found, text: me.map.text };
+          if (!done) timer = setTimeout(slice);
+          scene.redraw();
+        };
+        timer = setTimeout(slice);
+      }
+      scene.onLeave(() => clearTimeout(timer));
+
+      // ---- the robot and the cell it is in, or that is pointed at
+
+      function walk() {
+        const { start, walk: letters } = scene.state;
+        me.walked = tasks && rules.follow(tasks, start, letters);
+      }
+      function showCell() {
+        lines.parentNode.hidden = !tasks;
+        seen.textContent = tasks ? "" : "States, actions and rewards: when the building is legal.";
+        if (!tasks) return;
+        const { text, rows: all } = rules.seenIn(me.map, tasks, scene.state.task, pointed ?? me.walked.cell);
+        seen.textContent = text;
+        lines.replaceChildren(...all.map((line) => make("tr", {}, line.map((text) => make("td", {}, text)))));
+      }
+
+      // ---- what lies over the cells, and below the building
+
+      function layers({ show, task }) {
+        const { states, values, arrows } = rules.overlay(tasks, found, isPaused() ? "" : show);
+        view.classes(states);
+        view.values(values, { low: -100, high: 0 });
+        view.arrows(arrows);
+        view.lit(problem ? bad : [me.map.goals[task]]);
+      }
+
+      function tell() {
+        const { size: { cells, rooms, goals }, name, marks } = rules.likeness(me.map);
+        const parts = [
+          ui.plural(cells, "cell"), ui.plural(rooms, "room"), ui.plural(me.map.nDoors, "door"),
+          ui.plural(goals, "goal"), found && ui.plural(found.states, "abstract state"),
+        ];
+        counts.replaceChildren(
+          `${ui.list(parts.filter(Boolean))}; ${ui.count(cells * goals)} states. `,
+          name && !problem ? make("strong", {}, `✓ The counts of the paper's ${name}.`) : "",
+        );
+        solve.node.hidden = Boolean(problem) || !isPaused();
+        bars.set(at.ROWS.map((row) => ({
+          name: rows[row], arm: row, value: found?.row[row] ?? null, mark: marks[row], lit: row === scene.state.show,
+          note: row === "grad" && found && !isDone() && `climbing: ${found.iteration} of ${rules.GRAD}`,
+        })));
+      }
+      const isDone = () => found?.iteration === rules.GRAD;
+
+      function closing({ start, walk: letters }) {
+        if (me.walked?.isOver && letters) {
+          return (
+            `The goal, after ${ui.plural(me.walked.steps.length, "step")}: a return of ${number(me.walked.total, 2)}. ` +
+            `The best policy expects ${number(at.optimalValues(tasks)[start], 2)} from there.`
+          );
+        }
+        if (!isDone()) return "";
+        const { nd, prob, grad, optimal } = found.row;
+        const text =
+          `A cell of this building is worth ${number(nd, 1)} to ND, ${number(prob, 1)} to Prob, ` +
+          `${number(grad, 1)} to Grad and ${number(optimal, 1)} to the best driver.`;
+        if (first.text === me.map.text) return text;
+        const moved = (row) => found.row[row] - first.row[row];
+        const most = at.ROWS.reduce((a, b) => (Math.abs(moved(b)) > Math.abs(moved(a)) ? b : a));
+        return `${scene.betResult("bet", most)} ${text} What moved most: ${rows[most]}, by ${number(moved(most), 2)}.`.trim();
+      }
+      function twin() {
+        const { size, name, marks } = rules.likeness(me.map);
+        const paper = at.PAPER[name] ?? {};
+        return {
+          caption: `${legal.textContent} Counts, and the mean value of a cell.`,
+          head: ["what", "here", "the paper"],
+          rows: [
+            ...Object.entries(size).map(([what, n]) => [what, n, paper[what] ?? "–"]),
+            ["doors", me.map.nDoors, "–"], ["abstract states", found?.states ?? "–", "–"],
+            ...at.ROWS.map((row) => [
+              rows[row], found?.row[row] ? number(found.row[row], 10) : "–",
+              marks[row] ? number(marks[row], 2) : "–",
+            ]),
+          ],
+        };
+      }
+
+      return function draw(state, changed) {
+        const isNew = changed.has("text");
+        if (isNew) {
+          read();
+          begin();
+        }
+        if (isNew || changed.has("task")) tasks = problem ? null : at.navigationTasks(me.map, { keep: [state.task] });
+        if (["text", "task", "start", "walk"].some((name) => changed.has(name))) {
+          walk();
+          view.robots(tasks ? [{ cell: me.walked.cell, arm: "none", name: "the robot" }] : []);
+          view.trail(tasks && [state.start, ...me.walked.steps.map(({ next }) => next)]);
+          view.rename();
+          told.textContent = rules.stepText(me.map, me.walked);
+          showCell();
+          if (changed.has("walk")) scene.say(told.textContent);
+        }
+        layers(state);
+        tell();
+        tools.show();
+        scene.twin(twin);
+        scene.close(closing(state));
+      };
+    },
+  });
+})((globalThis.abstransfer ??= {}));

@@ -1,0 +1,35 @@
+"""
+Scenes: interactive pictures for notebooks, and for the built page.
+
+One line shows one::
+
+    from abstransfer import widgets
+
+    widgets.Microscope()
+
+Each runs in the browser.  In a notebook its state is in traits: read them after a
+click (``scene.t``), assign them to change the picture (``scene.start = "cost"``).
+
+Pages of the book show the scenes named here; ``scenes/README.md`` says how to write
+another.
+"""
+
+from ._widget import ArrayTrait, MapTrait, Scene, Still, as_map
+from ._widget_dial import Dial
+from ._widget_microscope import Microscope
+from ._widget_race import Race
+from ._widget_studio import Studio
+from ._widget_tau import TauSlider
+
+__all__ = [
+    "ArrayTrait",
+    "Dial",
+    "MapTrait",
+    "Microscope",
+    "Race",
+    "Scene",
+    "Still",
+    "Studio",
+    "TauSlider",
+    "as_map",
+]
