@@ -44,7 +44,8 @@ class Card:
         """Return the card as Markdown; values round, so machines agree on it."""
         counts = (f"{n} {name.replace('_', ' ')}" for name, n in self.counts.items())
         settings = (f"{name} {value}" for name, value in self.settings.items())
-        rows = [
+        head = ("robot", "drives", "goals of a run", "over none")
+        rows = [head] + [
             (
                 name,
                 f"{self.drives[name]:.2f}" if name in self.drives else "",
@@ -53,24 +54,10 @@ class Card:
             )
             for name in dict.fromkeys([*self.goals, *self.drives])
         ]
-        return "\n".join(
-            [
-                f"# {self.title}",
-                "",
-                f"By {self.by}. Building {digest(self.building.encode())}: "
-                f"{', '.join(counts)}.",
-                f"Settings: {'; '.join(settings)}.",
-                "",
-                "| robot | drives | goals of a run | over none |",
-                "|---|---|---|---|",
-                *(f"| {' | '.join(row)} |" for row in rows),
-                "",
-                "```text",
-                self.building,
-                "```",
-                "",
-            ]
-        )
+        building = f"Building {digest(self.building.encode())}: {', '.join(counts)}."
+        lines = [f"# {self.title}", "", f"By {self.by}. {building}"]
+        lines += [f"Settings: {'; '.join(settings)}.", "", *_table(rows), ""]
+        return "\n".join([*lines, "```text", self.building, "```", ""])
 
     def save(self, path: str | Path) -> Path:
         """Write the card as ``.md``, to be read, or ``.json``, to be collected."""
@@ -141,6 +128,17 @@ def read_card(path: str | Path) -> Card:
     except (ValueError, KeyError, TypeError) as error:
         raise ValueError(f"{path}: not a card ({error})") from None
     return Card(**parts)
+
+
+def _table(rows: list[tuple[str, ...]]) -> list[str]:
+    """Return the lines of a table in Markdown whose columns stand under each other."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = [
+        f"| {' | '.join(f'{cell:{w}}' for cell, w in zip(row, widths, strict=True))} |"
+        for row in rows
+    ]
+    lines.insert(1, f"|{'|'.join('-' * (w + 2) for w in widths)}|")
+    return lines
 
 
 def _rounded(interval: Interval) -> Interval:
