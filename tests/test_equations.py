@@ -14,7 +14,7 @@ import pytest
 from conftest import ROOT
 
 import abstransfer as at
-from abstransfer.absprob_pi import absprob_pi, abstract_gradient
+from abstransfer.absprob_pi import absprob_pi, abstract_gradient, natural_ascent
 from abstransfer.learning import q_learning
 from abstransfer.navigation import FEATURES
 from abstransfer.policies import beta_policy
@@ -301,3 +301,22 @@ def climbing(rng):
             best = np.eye(3)[ties.argmax()]  # the first of equally good ones
             expected = before[z] + 1 / (1 + i) * (best - before[z])
             np.testing.assert_allclose(after[z], expected)
+
+
+@proves("eq-natural")
+def natural_step(rng):
+    """One step multiplies by exp(eta mean Q) in every row, with one eta for all."""
+    mdp, policy, rho = abstract(rng)
+    possible = np.ones((3, 3), bool)
+    climb = natural_ascent(mdp, rho, possible, initial=policy, iterations=1, floor=0)
+    P = moves(mdp, policy[rho])
+    d = np.linalg.solve(np.eye(6) - mdp.gamma * P.T, np.full(6, 1 / 6)) * ~mdp.terminal
+    q = at.action_values(mdp, at.evaluate_policy(mdp, policy[rho]))
+    mean_q = np.array([d[rho == z] @ q[rho == z] / d[rho == z].sum() for z in range(3)])
+
+    grown, worth = np.log(climb.policy / policy)[0], mean_q[0]
+    eta = np.ptp(grown) / np.ptp(worth)
+    weight = policy * np.exp(eta * mean_q)
+
+    assert climb.history[1] > climb.history[0]
+    np.testing.assert_allclose(climb.policy, weight / weight.sum(axis=1, keepdims=True))
