@@ -1,5 +1,6 @@
 """Exercises: right is right in any form, each usual mistake has its own reply."""
 
+import re
 import subprocess
 import sys
 
@@ -198,3 +199,18 @@ def test_the_list_of_exercises_names_them_all():
     )
 
     assert all(key in done.stdout for key in ALL)
+
+
+def test_the_lecturers_guide_holds_the_answers():
+    """Of each exercise that is answered by a number or a word, and no others."""
+    guide = (ROOT / "book" / "lecturers_guide.md").read_text(encoding="utf-8")
+    told = dict(re.findall(r"^\| (ex-\S+) \| (.*) \|$", guide, re.MULTILINE))
+    values = {key for key, exercise in ALL.items() if not exercise.cases}
+
+    assert set(told) == values
+    for key, answer in told.items():
+        if not isinstance(ALL[key].solution, str):
+            answer = float(answer.replace(",", ""))
+            assert answer == pytest.approx(ALL[key].solution, rel=1e-3)
+        else:
+            assert answer == ALL[key].solution
