@@ -15,7 +15,7 @@ LEFT, RIGHT, TOP, BOTTOM = 34, 66, 26, 34  # margins
 LINE = 13  # height of a label
 MARKS = {
     "circle": "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0",
-    "cross": "M-4-2.4L-2.4-4 0-1.6 2.4-4 4-2.4 1.6 0 4 2.4 2.4 4 0 1.6-2.4 4-4 2.4-1.6 0Z",
+    "cross": "M-4-2L-2-4 0-2 2-4 4-2 2 0 4 2 2 4 0 2-2 4-4 2-2 0Z",
     "square": "M-3.5-3.5h7v7h-7Z",
     "triangle": "M0-4.6L4 2.6H-4Z",
     "diamond": "M0-5L5 0 0 5-5 0Z",

@@ -102,7 +102,7 @@ class Race(RunScene):
         half = self.scale.steps // 2
         rows = [
             (
-                NAMES[name],
+                f"{NAMES[name]} ({LETTERS[name]})",
                 f"{runs[name][: len(runs[name]) // 2].sum():,}",
                 f"{runs[name].sum():,}",
             )

@@ -21,11 +21,11 @@
     build(scene) {
       const { ui, runs } = at;
       const { make, count, list } = ui;
-      const { NAMES, WINDOWS, sum } = runs;
+      const { NAMES, WINDOWS, stateAt, sum } = runs;
       let world = null; // the problem
       let robots = []; // { arm, name, look, first, steps, ends, goals, path }
       let events = new Map(); // step -> sentence
-      let parting = null; // { t, cell }
+      let parting = null; // { t, s }
 
       const view = ui.building({ label: "" });
       view.svg.style.maxHeight = "75vh"; // all in sight: nothing to scroll
@@ -61,8 +61,6 @@
       }
       const cellOf = (s) => s % world.map.nCells;
       const place = (s) => ui.place(world.map, cellOf(s));
-      const names = (group) => list(group.map(({ name }) => name));
-      const stateAt = ({ first, steps }, t) => (t ? steps[t - 1].here : first);
       // Where a robot is seen: on the goal in the step that reaches it.
       const seen = (robot, t) =>
         robot.ends.includes(t) ? robot.steps[t - 1].next : stateAt(robot, t);
@@ -89,31 +87,8 @@
           const name = NAMES[arm.guide ?? "none"];
           return { arm, name, look: arm.name, first, steps, ends, goals: [], path };
         });
-        findEvents();
+        ({ events, parting } = runs.firstEvents(robots, FIRST));
         ticks.replaceChildren(...[...events.keys()].map((t) => make("option", { value: t })));
-      }
-
-      // Steps in which robots part that were always together, or one reaches a goal.
-      function findEvents() {
-        let groups = [robots];
-        events = new Map();
-        parting = null;
-        for (let t = 1; t <= FIRST; t++) {
-          const news = [];
-          const split = groups.flatMap((group) => {
-            const parts = {};
-            for (const robot of group) (parts[stateAt(robot, t)] ??= []).push(robot);
-            return Object.values(parts);
-          });
-          if (split.length > groups.length) {
-            news.push(`${parting ? "again" : "here, in the frame,"} they part: ${split.map(names).join(" – ")}`);
-            parting ??= { t, cell: cellOf(stateAt(robots[0], t - 1)) };
-          }
-          groups = split;
-          const there = robots.filter(({ ends }) => ends.includes(t));
-          if (there.length) news.push(`${names(there)} ${there.length > 1 ? "are" : "is"} at the goal; the next start is elsewhere`);
-          if (news.length) events.set(t, `Step ${count(t)}: ${news.join("; ")}.`);
-        }
       }
 
       function tell(t) {
@@ -128,7 +103,7 @@
           tasks.goal[Math.floor((t ? steps[t - 1].s : first) / map.nCells)],
         );
         view.map(map, { goals: [...new Set(aims)] });
-        view.lit(t >= parting?.t ? [parting.cell] : []);
+        view.lit(t >= parting?.t ? [cellOf(parting.s)] : []);
         view.robots(robots.map((robot) => ({ cell: cellOf(seen(robot, t)), arm: robot.look, name: robot.name })));
         for (const robot of robots) {
           const from = Math.max(0, t - TRAIL, ...arrived(robot, t - 1));
@@ -166,7 +141,7 @@
         const isDone = n === WINDOWS;
         full.hidden = !bet && !isOn;
         go.set(!isOn ? `All ${all()}` : isDone ? "Clear" : "Stop");
-        progress.textContent = isOn ? `${count(n * runs.windowOf(steps))} of ${all()}` : "";
+        progress.textContent = isOn && !isDone ? `${count(n * runs.windowOf(steps))} of ${all()}` : "";
         // A fair race shows all up to the same step; where motion is unwelcome, its end.
         const curves = robots.map(({ name, look, goals }) => ({ name, arm: look, goals: goals.slice(0, n) }));
         chart.node.hidden = !(isDone || (n && !scene.calm));

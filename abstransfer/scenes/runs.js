@@ -77,5 +77,39 @@
     };
   }
 
-  at.runs = { WINDOWS, NAMES, sum, windowOf, scaled, problem, chart, table };
+  // ---- the first steps of robots { name, first, steps, ends }
+
+  const stateAt = ({ first, steps }, t) => (t ? steps[t - 1].here : first);
+
+  // Steps in which robots part that were always together, or one reaches a goal, as
+  // sentences by step; and the first parting { t, s }, null if they stay together.
+  function firstEvents(robots, n) {
+    const { count, list } = at.ui;
+    const names = (group) => list(group.map(({ name }) => name));
+    const events = new Map();
+    let groups = [robots];
+    let parting = null;
+    for (let t = 1; t <= n; t++) {
+      const news = [];
+      const split = groups.flatMap((group) => {
+        const parts = {};
+        for (const robot of group) (parts[stateAt(robot, t)] ??= []).push(robot);
+        return Object.values(parts);
+      });
+      if (split.length > groups.length) {
+        news.push(`${parting ? "again" : "here, in the frame,"} they part: ${split.map(names).join(" – ")}`);
+        parting ??= { t, s: stateAt(robots[0], t - 1) };
+      }
+      groups = split;
+      const there = robots.filter(({ ends }) => ends.includes(t));
+      const verb = there.length > 1 ? "are" : "is";
+      if (there.length) news.push(`${names(there)} ${verb} at the goal; the next start is elsewhere`);
+      if (news.length) events.set(t, `Step ${count(t)}: ${news.join("; ")}.`);
+    }
+    return { events, parting };
+  }
+
+  at.runs = {
+    WINDOWS, NAMES, stateAt, firstEvents, sum, windowOf, scaled, problem, chart, table,
+  };
 })((globalThis.abstransfer ??= {}));

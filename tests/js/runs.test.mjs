@@ -9,7 +9,8 @@ import { at, readMap } from "./engine.mjs";
 
 const file = new URL("../../abstransfer/scenes/runs.js", import.meta.url);
 runInThisContext(readFileSync(file, "utf8"), { filename: "runs.js" });
-const { problem, scaled, sum, table, windowOf, WINDOWS } = at.runs;
+const { firstEvents, problem, scaled, sum, table, windowOf, WINDOWS } = at.runs;
+at.ui = { count: String, list: (words) => words.join(" and ") };
 
 const [target, source] = ["target", "source"].map((name) => readMap(name).text);
 const nd = at.ARMS.find(({ name }) => name === "nd-hard");
@@ -71,7 +72,6 @@ test("an own policy that is ND advises as ND does", () => {
 });
 
 test("a table has a line per window, and a dash for what is not known", () => {
-  at.ui = { count: String };
   const curves = [
     { name: "ND", goals: Array.from({ length: 60 }, (_, i) => i) },
     { name: "Prob", goals: [7] },
@@ -82,4 +82,23 @@ test("a table has a line per window, and a dash for what is not known", () => {
   assert.deepEqual(head, ["goals up to step", "ND", "Prob"]);
   assert.deepEqual(rows[0], ["500000", "0", "7"]);
   assert.deepEqual(rows.at(-1), ["30000000", "59", "–"]);
+});
+
+test("partings are told once, and the first one is where they were together", () => {
+  const robot = (name, states, ends = []) => ({
+    name, ends, first: 3, steps: states.map((here) => ({ here })),
+  });
+  const robots = [
+    robot("A", [3, 4, 5, 9, 6, 7]),
+    robot("B", [3, 4, 5, 5, 5, 7]),
+    robot("C", [3, 4, 6, 9, 6, 7], [5]),
+  ];
+  const { events, parting } = firstEvents(robots, 6);
+
+  assert.deepEqual(parting, { t: 3, s: 4 });
+  assert.deepEqual([...events.keys()], [3, 4, 5]);
+  assert.match(events.get(3), /they part: A and B – C\.$/);
+  assert.match(events.get(4), /again they part: /);
+  assert.match(events.get(5), /C is at the goal/);
+  assert.deepEqual(firstEvents([robots[0], { ...robots[0], name: "D" }], 6).parting, null);
 });
