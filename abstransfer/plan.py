@@ -51,7 +51,7 @@ def make_plan(
     stream: str = "report",
     guides: Mapping[str, np.ndarray] | None = None,
 ) -> Plan:
-    """Return the experiment, its guides built; arguments of :func:`~abstransfer.experiment.run_experiment`."""
+    """Return the experiment, its guides built; arguments as for `run_experiment`."""
     if isinstance(scale, str):
         if scale not in SCALES:
             raise ValueError(f"scale must be one of {tuple(SCALES)}, got {scale!r}")
