@@ -46,6 +46,7 @@ NOT_PROSE = [
     ),  # lists, quiz
 ]
 LECTURER = re.compile(r"^(`{3,})\{admonition\} For the lecturer.*?^\1", re.M | re.S)
+ABOUT = re.compile(r"\b(?:about|nearly|almost|roughly|some) $")  # within a twentieth
 SCALES = {"million": 1e6, "thousand": 1e3}
 
 
@@ -88,7 +89,10 @@ def numbers(text: str, pattern=NUMBER) -> list[tuple[str, float, float]]:
         zeros = len(whole) - len(whole.rstrip("0")) if not decimals else -len(decimals)
         following = re.match(r"\s*([a-z]+)", text[match.end() :])
         scale = SCALES.get(following[1], 1) if following else 1
-        found.append((written, float(digits) * scale, 0.5 * scale * 10.0**zeros))
+        value, half = float(digits) * scale, 0.5 * scale * 10.0**zeros
+        if ABOUT.search(text[: match.start()]):
+            half = max(half, 0.05 * value)
+        found.append((written, value, half))
     return found
 
 

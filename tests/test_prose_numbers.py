@@ -60,6 +60,7 @@ def page(tmp_path):
         ("That is 41 %.", "share 0.412"),
         ("About 276 thousand goals.", "275,712"),
         ("About 276,000 goals.", "275712"),
+        ("It takes about 75 sweeps.", "73"),
         ("After 4.5 million steps.", "4,500,000"),
         ("Twelve, 12, or 7 are small.", ""),
     ],
@@ -73,6 +74,8 @@ def test_a_number_that_an_output_rounds_to_is_shown(page, text, output):
     [
         ("It costs 23.5 steps.", "23.56", ["23.5"]),
         ("It costs 23.5 steps.", "", ["23.5"]),
+        ("It takes about 75 sweeps.", "70", ["75"]),
+        ("It takes 75 sweeps.", "73", ["75"]),
         ("About 276 thousand goals.", "27,571", ["276"]),
         ("So $2 \\cdot 41 = 82$ it is.", "", ["82"]),
         ("So $12 + 71 = 82.5$ it is.", "82", ["82.5"]),

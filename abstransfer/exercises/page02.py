@@ -160,35 +160,42 @@ EXERCISES = [
     ),
     value(
         "ex-2-3",
-        "A corridor of 10 cells, the last is the goal; moves never fail. All values "
-        "start at their rewards: -1, and 0 on the goal. A sweep backs up every cell "
-        "from the values of the sweep before. After how many sweeps does the value of "
-        "the first cell change for the last time?",
-        8,
+        "Values start at the rewards: -1, and 0 on the goal; the discount is 0.99. "
+        "What "
+        "is the value, after 5 sweeps, of a cell that is more than 5 steps from the "
+        "goal?",
+        -(1 - 0.99**6) / (1 - 0.99),
+        tolerance=1e-3,
         hints=(
-            "Which cells are right before the first sweep?",
-            "The cell beside the goal is right at the start: it costs 1. "
-            "Each sweep makes one more cell right.",
-            "Nine cells are not the goal, and one of them is right before any sweep.",
+            "No news of the goal has come that far. What does the cell believe?",
+            "Each sweep adds one discounted coin to the one that was there at the "
+            "start.",
+            "-(1 + 0.99 + ... + 0.99^5): how many terms are that?",
         ),
         wrong=[
             Wrong(
-                "one too many",
-                9,
-                "The cell beside the goal needs no sweep: its reward is its value.",
+                "one coin too few",
+                -(1 - 0.99**5) / (1 - 0.99),
+                "Before the first sweep the value is -1 already: six coins, not five.",
             ),
             Wrong(
-                "the number of cells",
-                10,
-                "The goal and the cell beside it are right before the first sweep.",
+                "one coin too many",
+                -(1 - 0.99**7) / (1 - 0.99),
+                "One coin at the start and one per sweep: six, not seven.",
             ),
             Wrong(
-                "all at once",
-                1,
-                "A sweep uses the values of the sweep before, so news travels one "
-                "cell.",
+                "no discount", -6, "Six coins, but each later one counts 0.99 times."
             ),
-            Wrong("never", np.inf, "Without failing moves the values become exact."),
+            Wrong(
+                "the end, not five sweeps",
+                -100,
+                "That is what a cell believes that never hears of the goal.",
+            ),
+            Wrong(
+                "the sign",
+                (1 - 0.99**6) / (1 - 0.99),
+                "The size is right. But the robot pays: the value is below 0.",
+            ),
         ],
     ),
 ]
