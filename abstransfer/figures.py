@@ -13,6 +13,7 @@ import numpy as np
 
 from .ledger import Entry, ledger
 from .plotting import figure, plot_boxes, plot_curves, plot_tau
+from .reading import GUIDES
 from .results import RECORD, Results, load_results
 from .stats import mean_interval
 from .tables import (
@@ -59,6 +60,8 @@ def make_figures(
             on_file(path)
 
     for name, found in experiments.items():
+        if any(arm.guide not in (None, *GUIDES) for arm in found.arms):
+            continue  # a study with guides of its own: page 10 draws it
         if is_grid(found):
             tunings = tune(found)
             rows = tau_table(tunings)
