@@ -42,7 +42,7 @@ class Shown(SceneTab):
         )
         return self.settle()
 
-    def is_idle(self, seconds=2):
+    def is_idle(self, seconds=10):
         """Whether no worker is left; a tab hears of their end a little later."""
         for _ in range(20 * seconds):
             if not self.page.workers:
