@@ -84,9 +84,8 @@ class Dial(RunScene):
         if guide:
             arm = Arm(f"{guide}-{self.strategy}", guide, self.strategy, self.tau)
             return int(self.learn(arm).sum())
-        other = type(self)(**{name: getattr(self, name) for name in _SETTING})
-        other.beta = beta
-        return int(other.learn(Arm("yours", "yours", self.strategy, self.tau)).sum())
+        arm = Arm("yours", "yours", self.strategy, self.tau)
+        return int(self.learn(arm, _policy(self.source, beta)).sum())
 
     def options(self) -> dict:
         """Return the state of the built page: it knows the teaching of ND and Prob."""
@@ -145,7 +144,6 @@ class Dial(RunScene):
 
 
 _MAPS = {"source": "source", "target": "map"}
-_SETTING = ("map", "source", "reward", "strategy", "tau", "luck", "steps")
 
 
 @lru_cache(maxsize=8)

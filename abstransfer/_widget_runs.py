@@ -57,23 +57,36 @@ class RunScene(Scene):
         window = int(self.steps / WINDOWS + 0.5)
         return Scale(WINDOWS * window, window)
 
-    def advice(self, arm: Arm) -> np.ndarray | None:
-        """Return the policy (S, A) that advises an arm."""
+    def advice(self, arm: Arm, own: np.ndarray | None = None) -> np.ndarray | None:
+        """Return the policy (S, A) that advises an arm; `own` (Z, A) is "yours"."""
         if arm.guide is None:
             return None
-        own = arm.guide == "yours"
-        policy = self.policy if own else _built(self.reading, arm.guide)
+        if arm.guide == "yours":
+            policy = self.policy if own is None else own
+        else:
+            policy = _built(self.reading, arm.guide)
         return policy[target_tasks(self.reading).rho]
 
-    def learn(self, arm: Arm) -> np.ndarray:
-        """Return the goals of an arm by window (B,): stored ones, or a run of it."""
+    def learn(self, arm: Arm, own: np.ndarray | None = None) -> np.ndarray:
+        """
+        Return the goals of an arm by window (B,): stored ones, or a run of it.
+
+        `own` (Z, A) advises the arm "yours"; by default the policy of the scene.
+        """
         stored = _stored(self.reading) if self.scale == SCALES["paper"] else None
         if stored is not None and arm in stored.arms:
             return stored.curves(arm.name, arm.tau)[self.luck - 1]
-        own = self.policy.tobytes() if arm.guide == "yours" else None
-        key = self.reading, arm, self.steps, self.luck, own
+        if arm.guide == "yours" and own is None:
+            own = self.policy
+        key = (
+            self.reading,
+            arm,
+            self.steps,
+            self.luck,
+            own is not None and own.tobytes(),
+        )
         if key not in _done:
-            guide = self.advice(arm)
+            guide = self.advice(arm, own)
             _done[key] = q_learning(
                 target_tasks(self.reading).mdp,
                 self.scale.steps,

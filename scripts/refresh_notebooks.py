@@ -68,6 +68,8 @@ def settled(notebook) -> str:
             cell.outputs = join_streams(cell.outputs)
             drop_scenes(cell.outputs, widgets["state"])
             take_alt_text(cell)
+    if not any(WIDGET in output.get("data", {}) for output in outputs_of(notebook)):
+        widgets["state"].clear()  # what a scene made for itself; nothing shows it
     names = numbered(nbformat.writes(notebook), widgets["state"])
     if widgets["state"]:
         notebook.metadata["widgets"] = {WIDGETS: widgets}
@@ -102,6 +104,11 @@ def numbered(text: str, state: dict) -> dict[str, str]:
     for name in sorted(state.keys() - names.keys(), key=settled_content):
         visit(name)
     return names
+
+
+def outputs_of(notebook) -> list:
+    """Return the outputs of all cells."""
+    return [o for cell in notebook.cells for o in cell.get("outputs", [])]
 
 
 def join_streams(outputs: list) -> list:

@@ -73,6 +73,22 @@ def test_of_a_scene_only_its_html_is_kept():
     assert set(state) == {C, D}
 
 
+@pytest.mark.parametrize("html", [True, False])
+def test_widgets_are_stored_only_where_an_output_shows_one(html):
+    view = "application/vnd.jupyter.widget-view+json"
+    output = new_output("display_data", data={view: {"model_id": A}})
+    if html:
+        output["data"]["text/html"] = "<div></div>"
+    notebook = new_notebook(cells=[new_code_cell(outputs=[output])])
+    state = {A: {"state": {}}, B: {"state": {}}}  # b: made on the way to a scene
+    kind = "application/vnd.jupyter.widget-state+json"
+    notebook.metadata["widgets"] = {kind: {"state": state}}
+
+    metadata = json.loads(settled(notebook))["metadata"]
+
+    assert ("widgets" in metadata) == (not html)
+
+
 def test_the_alt_text_of_a_figure_reaches_the_cell():
     output = new_output(
         "display_data",
