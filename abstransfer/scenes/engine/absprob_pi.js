@@ -63,7 +63,7 @@
   // after each iteration.  `policy` is one array, changed from yield to yield.
   function* absprobPi(tasks, options = {}) {
     const { initial, start, iterations = 300, softness = 0.05 } = options;
-    const policy = initial ? initial.slice() : at.uniformPolicy(tasks.possible);
+    const policy = initial ? initial.slice() : at.uniformPolicy(tasks.possible, tasks.nActions);
     for (let iteration = 0; ; iteration++) {
       const found = abstractGradient(tasks, policy, start);
       yield { iteration, policy, ...found };

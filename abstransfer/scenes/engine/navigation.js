@@ -31,22 +31,25 @@
   //   near, almostNear   largest distances of the features of that name
   //   features     those that make the abstract state
   //   keep         numbers of the tasks to keep
+  //   actions      "relational" (the labels) or "compass" (N, E, S, W)
   function navigationTasks(map, options = {}) {
     const {
-      success = 0.9, reward = "cost", gamma = 0.99, near = 5, almostNear = 8, keep,
+      success = 0.9, reward = "cost", gamma = 0.99, near = 5, almostNear = 8, keep, actions,
     } = options;
     const kept = options.features ?? FEATURES;
     const features = FEATURES.filter((name) => kept.includes(name));
     const goal = Int32Array.from(keep ?? map.goals.keys(), (task) => map.goals[task]);
     const { nCells, neighbors } = map;
     const nStates = goal.length * nCells;
+    const isCompass = actions === "compass";
+    const nActions = isCompass ? 4 : A;
     const tasks = {
       map, success, gamma, features, goal, neighbors, nCells, nStates,
       nTasks: goal.length,
-      nActions: A,
+      nActions,
       nAbstract: 2 ** features.length,
-      labels: new Int8Array(4 * nStates), // what is seen, or -1
-      nWays: new Uint8Array(A * nStates), // directions an action draws from
+      labels: new Int8Array(4 * nStates), // the action that may go there, or -1
+      nWays: new Uint8Array(nActions * nStates), // directions an action draws from
       rho: new Int32Array(nStates), // bit f is 1 iff feature f holds
       terminal: new Uint8Array(nStates),
       reward: new Float64Array(nStates), // for reaching a state
@@ -56,19 +59,21 @@
     FEATURES.forEach((name, f) => features.includes(name) || (bits[f] = 0));
     for (let s = 0; s < nStates; s++) {
       const cell = s % nCells;
-      const distance = look(tasks, s, kinds, bits);
+      const distance = look(tasks, s, kinds, bits, isCompass);
       if (distance <= near) tasks.rho[s] |= bits[A];
       else if (distance <= almostNear) tasks.rho[s] |= bits[A + 1];
       if (map.inRoom[cell]) tasks.rho[s] |= bits[A + 2];
       tasks.terminal[s] = distance === 0 ? 1 : 0;
       tasks.reward[s] = (distance === 0 ? 1 : 0) - (reward === "cost" ? 1 : 0);
     }
-    tasks.possible = possibleActions(features);
+    tasks.possible = isCompass
+      ? new Uint8Array(nActions * tasks.nAbstract).fill(1) : possibleActions(features);
     return tasks;
   }
 
   // Fill in labels, ways and the label bits of rho; return the distance to the goal.
-  function look({ map, goal, neighbors, nCells, labels, nWays, rho }, s, kinds, bits) {
+  function look(tasks, s, kinds, bits, isCompass) {
+    const { map, goal, neighbors, nCells, nActions, labels, nWays, rho } = tasks;
     const cell = s % nCells;
     const aim = goal[(s - cell) / nCells];
     const distance = manhattan(cell, aim, map.width);
@@ -78,8 +83,9 @@
       if (other < 0) continue;
       const isAway = manhattan(other, aim, map.width) > distance;
       const label = kinds[4 * cell + d] + (isAway ? KINDS.length : 0);
-      labels[4 * s + d] = label;
-      nWays[A * s + label]++;
+      const a = isCompass ? d : label;
+      labels[4 * s + d] = a;
+      nWays[nActions * s + a]++;
       rho[s] |= bits[label];
     }
     return distance;

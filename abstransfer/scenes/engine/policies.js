@@ -4,16 +4,17 @@
 (function policies(at) {
   "use strict";
 
+  // Functions take the number of actions last; by default, the relational ones.
   const nActions = () => at.LABELS.length;
   const sumOf = (values) => values.reduce((sum, x) => sum + x, 0);
 
   // Return a copy whose rows sum to 1; a row of 0 becomes uniform over its mask, and
   // over everything where the mask is empty.
-  function normalized(weights, mask) {
+  function normalized(weights, mask, n = nActions()) {
     const policy = Float64Array.from(weights);
-    for (let i = 0; i < policy.length; i += nActions()) {
-      const row = policy.subarray(i, i + nActions());
-      if (!sumOf(row)) row.set(mask.subarray(i, i + nActions()));
+    for (let i = 0; i < policy.length; i += n) {
+      const row = policy.subarray(i, i + n);
+      if (!sumOf(row)) row.set(mask.subarray(i, i + n));
       if (!sumOf(row)) row.fill(1);
       const total = sumOf(row);
       row.forEach((weight, a) => (row[a] = weight / total));
@@ -22,17 +23,17 @@
   }
 
   // The policy that draws uniformly where the mask is 1.
-  const uniformPolicy = (mask) => normalized(mask, mask);
+  const uniformPolicy = (mask, n) => normalized(mask, mask, n);
 
   // The policy that draws from all actions: the paper's pi_rand.
-  const randomPolicy = (nRows) => uniformPolicy(new Uint8Array(nRows * nActions()));
+  const randomPolicy = (nRows, n = nActions()) => uniformPolicy(new Uint8Array(nRows * n), n);
 
   // An optimal policy (S, A), given which actions are optimal; rows of terminal
   // states are 0.  Equally good actions "share" the vote, or the "first" takes it.
-  function breakTies(optimal, ties = "share") {
+  function breakTies(optimal, ties = "share", n = nActions()) {
     const policy = Float64Array.from(optimal);
-    for (let i = 0; i < policy.length; i += nActions()) {
-      const row = policy.subarray(i, i + nActions());
+    for (let i = 0; i < policy.length; i += n) {
+      const row = policy.subarray(i, i + n);
       const first = row.indexOf(1);
       if (first < 0) continue;
       if (ties === "first") row.fill(0).fill(1, first, first + 1);
@@ -44,20 +45,21 @@
 
   // Votes (Z, A): the sum of policy rows (S, A) by abstract state.
   function countVotes(policy, rho, nAbstract) {
-    const votes = new Float64Array(nAbstract * nActions());
+    const n = policy.length / rho.length;
+    const votes = new Float64Array(nAbstract * n);
     policy.forEach((p, i) => {
-      const a = i % nActions();
-      votes[nActions() * rho[(i - a) / nActions()] + a] += p;
+      const a = i % n;
+      votes[n * rho[(i - a) / n] + a] += p;
     });
     return votes;
   }
 
   // pi_AbsProb (Z, A): how often each action is optimal in an abstract state.
-  const induceProbabilistic = (votes, fallback) => normalized(votes, fallback);
+  const induceProbabilistic = normalized;
 
   // pi_AbsND (Z, A): uniform over the actions that are optimal at least once.
-  const induceNondeterministic = (votes, fallback) =>
-    normalized(votes.map((vote) => (vote > 0 ? 1 : 0)), fallback);
+  const induceNondeterministic = (votes, fallback, n) =>
+    normalized(votes.map((vote) => (vote > 0 ? 1 : 0)), fallback, n);
 
   // The policy proportional to p^beta where p > 0: ND at 0, p itself at 1, the most
   // frequent actions only at infinity.

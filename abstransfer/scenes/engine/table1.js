@@ -18,12 +18,13 @@
   // ND and Prob of solved tasks, with the votes (Z, A) they were induced from.
   function inducedPolicies(tasks, { ties = "share", v } = {}) {
     const optimal = at.optimalActions(tasks, v ?? at.optimalValues(tasks));
-    const shares = at.breakTies(optimal, ties);
+    const n = tasks.nActions;
+    const shares = at.breakTies(optimal, ties, n);
     const votes = at.countVotes(shares, tasks.rho, tasks.nAbstract);
     return {
       votes,
-      nd: at.induceNondeterministic(votes, tasks.possible),
-      prob: at.induceProbabilistic(votes, tasks.possible),
+      nd: at.induceNondeterministic(votes, tasks.possible, n),
+      prob: at.induceProbabilistic(votes, tasks.possible, n),
     };
   }
 
@@ -36,7 +37,7 @@
 
   // One column of Table 1, with the counts of its map, for abstract policies by name.
   function column(tasks, policies, v = at.optimalValues(tasks)) {
-    const random = at.randomPolicy(tasks.nAbstract);
+    const random = at.randomPolicy(tasks.nAbstract, tasks.nActions);
     const result = {
       cells: tasks.nCells,
       rooms: tasks.map.nRooms,
@@ -47,7 +48,7 @@
     for (const [name, policy] of Object.entries(policies)) {
       result[name] = at.mean(at.evaluatePolicy(tasks, policy, tasks.rho));
     }
-    const available = at.uniformPolicy(tasks.nWays.map((n) => Math.min(n, 1)));
+    const available = at.uniformPolicy(tasks.nWays.map((n) => Math.min(n, 1)), tasks.nActions);
     result.uniform_available = at.mean(at.evaluatePolicy(tasks, available));
     result.optimal = at.mean(v);
     return result;
