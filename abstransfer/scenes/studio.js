@@ -4,7 +4,6 @@
 (function studio(at) {
   "use strict";
 
-  const MANY = 1500; // cells: from here on, solving waits to be asked for
   const SHOWN = {
     plain: "the building", states: "abstract states", nd: "ND", prob: "Prob", grad: "Grad",
     optimal: "optimal",
@@ -26,21 +25,18 @@
       const { ui, studio: rules } = at;
       const { make, number } = ui;
       const rows = Object.fromEntries(at.ROWS.map((row) => [row, ui.armStyle(row).name]));
-      const me = { map: null, text: null, walked: null, read, walk };
-      let [problem, bad, tasks, pointed] = ["", [], null, null];
+      let [tasks, pointed] = [null, null];
       let [found, first, isAsked, timer] = [null, null, false, null];
 
-      const tools = rules.makeTools(scene, me);
-      const view = (me.view = ui.building({
-        label: "The building", onAct: tools.act, onKey: tools.press, keys: tools.keys,
-        describe: (cell) => rules.describe(me.map, cell, me.walked?.cell),
+      const me = rules.makeEditor(scene, {
+        walk, onMap,
         onPoint: (cell) => {
           pointed = cell;
           showCell();
         },
-      }));
-      tools.listen(view);
-      const [legal, counts, seen, told] = [1, 2, 3, 4].map(() => make("p", {}));
+      });
+      const { tools, view, legal } = me;
+      const [counts, seen, told] = [1, 2, 3].map(() => make("p", {}));
       const lines = make("tbody");
       const bars = ui.barChart({
         label: "Table 1: mean value of a cell", format: (x) => number(x, 2), low: -100, high: 0,
@@ -68,45 +64,21 @@
         tools.files,
       );
 
-      // ---- the building, legal or not
-
-      // Take a text; keep the last building where it draws none.
-      function read() {
-        const { text } = scene.state;
-        const before = me.map;
-        if (text === me.text) return;
-        me.text = text;
-        [problem, bad] = ["", []];
-        try {
-          me.map = at.drawMap(text).map;
-          at.parseMap(me.map.text);
-        } catch ({ message, row, column }) {
-          problem = message;
-          bad = [row - 1, row, row + 1].flatMap((r) => [column - 1, column, column + 1].map((c) => [r, c]));
-        }
-        const map = (me.map ??= at.parseMap(at.mapTexts.source));
-        const isInside = ([r, c]) => r % 2 && c % 2 && r > 0 && c > 0 && r < 2 * map.height && c < 2 * map.width;
-        bad = bad.filter(isInside).map(([r, c]) => ((r - 1) / 2) * map.width + (c - 1) / 2);
-        if (before && before.text !== map.text) tools.remember(before.text);
-        view.map(map);
-        columns.classList.toggle("ab-columns", map.width <= 20);
+      function onMap(problem) {
+        columns.classList.toggle("ab-columns", me.map.width <= 20);
         if (!problem) {
-          scene.limit("task", [0, map.goals.length - 1]);
-          scene.limit("start", [0, map.nCells - 1]);
+          scene.limit("task", [0, me.map.goals.length - 1]);
+          scene.limit("start", [0, me.map.nCells - 1]);
         }
         isAsked = false;
-        legal.classList.toggle("ab-now", Boolean(problem));
-        legal.textContent = problem ? `Not legal yet: ${problem}.` : "A legal building.";
-        if (problem) scene.say(legal.textContent);
-        tools.write(text);
       }
 
       // Solve in slices, so that the page stays free; a new building ends it.
-      const isPaused = () => me.map.nCells > MANY && !isAsked;
+      const isPaused = () => me.map.nCells > rules.MANY && !isAsked;
       function begin() {
         clearTimeout(timer);
         found = null;
-        if (problem || isPaused()) return;
+        if (me.problem || isPaused()) return;
         const job = rules.solving(me.map);
         const slice = () => {
           const { last, done } = at.runFor(job, 15);
@@ -141,7 +113,7 @@
         view.classes(states);
         view.values(values, { low: -100, high: 0 });
         view.arrows(arrows);
-        view.lit(problem ? bad : [me.map.goals[task]]);
+        view.lit(me.problem ? me.bad : [me.map.goals[task]]);
       }
 
       function tell() {
@@ -152,9 +124,9 @@
         ];
         counts.replaceChildren(
           `${ui.list(parts.filter(Boolean))}; ${ui.count(cells * goals)} states. `,
-          name && !problem ? make("strong", {}, `✓ The counts of the paper's ${name}.`) : "",
+          name && !me.problem ? make("strong", {}, `✓ The counts of the paper's ${name}.`) : "",
         );
-        solve.node.hidden = Boolean(problem) || !isPaused();
+        solve.node.hidden = Boolean(me.problem) || !isPaused();
         bars.set(at.ROWS.map((row) => ({
           name: rows[row], arm: row, value: found?.row[row] ?? null, mark: marks[row], lit: row === scene.state.show,
           note: row === "grad" && found && !isDone() && `climbing: ${found.iteration} of ${rules.GRAD}`,
@@ -199,10 +171,10 @@
       return function draw(state, changed) {
         const isNew = changed.has("text");
         if (isNew) {
-          read();
+          me.read();
           begin();
         }
-        if (isNew || changed.has("task")) tasks = problem ? null : at.navigationTasks(me.map, { keep: [state.task] });
+        if (isNew || changed.has("task")) tasks = me.problem ? null : at.navigationTasks(me.map, { keep: [state.task] });
         if (["text", "task", "start", "walk"].some((name) => changed.has(name))) {
           walk();
           view.robots(tasks ? [{ cell: me.walked.cell, arm: "none", name: "the robot" }] : []);

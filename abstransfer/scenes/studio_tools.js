@@ -8,19 +8,21 @@
     walk: "Walk", wall: "Wall", door: "Door", room: "Room", corridor: "Corridor", goal: "Goal",
   };
   const ARROWS = ["ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft"];
-  const KEYS = [
-    ["arrow keys, Walk", "move the robot"],
-    ["Shift + arrow", "a wall on that side, or none; with the tool Door, a door"],
-    ["1 to 6", "choose the tool"],
-    ["Ctrl + Z, Ctrl + Y", "undo, redo"],
-  ];
   const MOST = 200; // buildings that are remembered
   const [LEAST, LARGEST] = [2, 60]; // rows and columns of a blank room
 
   // `me` is what the scene shows: { map, walked, view }; `read` and `walk` renew it.
-  function makeTools(scene, me) {
+  // Its tools are those that the state may hold; `buildings` more texts by name.
+  function makeTools(scene, me, buildings = {}) {
     const { ui, studio } = at;
     const { make } = ui;
+    const known = Object.fromEntries(scene.limits.tool.map((tool) => [tool, TOOLS[tool]]));
+    const KEYS = [
+      ...("walk" in known ? [["arrow keys, Walk", "move the robot"]] : []),
+      ["Shift + arrow", "a wall on that side, or none; with the tool Door, a door"],
+      [`1 to ${scene.limits.tool.length}`, "choose the tool"],
+      ["Ctrl + Z, Ctrl + Y", "undo, redo"],
+    ];
     const isPaint = () => ["room", "corridor"].includes(scene.state.tool);
     let [past, future, isBack] = [[], [], false];
 
@@ -77,7 +79,7 @@
     }
     function press(key, cell, event) {
       const d = ARROWS.indexOf(key);
-      const tool = Object.keys(TOOLS)[key - 1];
+      const tool = scene.limits.tool[key - 1];
       if (tool) scene.set({ tool });
       else if (d >= 0 && event.shiftKey) toggle(cell, d);
       else if (d >= 0 && scene.state.tool === "walk" && me.walked) step(d);
@@ -144,15 +146,15 @@
     };
     const files = [
       scene.row(
-        scene.button("The source", load(at.mapTexts.source)),
-        scene.button("The target", load(at.mapTexts.target)),
+        Object.entries({ ...buildings, "The source": at.mapTexts.source, "The target": at.mapTexts.target })
+          .map(([name, text]) => scene.button(name, load(text))),
         scene.button("A blank room of", clear),
         make("span", {}, sizes[0], " × ", sizes[1]),
       ),
       make("details", {}, make("summary", {}, "The building as text"), area,
         scene.row(scene.button("Copy", copy), scene.button("Save as a file", save))),
     ];
-    const bar = scene.row(scene.choice("tool", { label: "Tool", options: TOOLS }), undo.node, redo.node);
+    const bar = scene.row(scene.choice("tool", { label: "Tool", options: known }), undo.node, redo.node);
     const write = (text) => document.activeElement === area || (area.value = text);
     return { keys: KEYS, bar, files, act, press, listen, remember, show, write };
   }

@@ -1,0 +1,52 @@
+// A building that the reader edits: the drawing in the state as `text`, its view, its
+// tools, and what is not legal in it.  Map Studio and other scenes are made with it.
+
+(function studioEditor(at) {
+  "use strict";
+
+  const MANY = 1500; // cells: from here on, solving waits to be asked for
+
+  // `onMap(problem)` hears of another drawing: `map` is it or, where it draws none, the
+  // last one.  `buildings` are more to start from, by name; `walk` moves a robot.
+  function makeEditor(scene, options = {}) {
+    const { buildings, walk, onMap, ...view } = options;
+    const { ui, studio } = at;
+    const legal = ui.make("p", {});
+    const me = { map: null, text: null, walked: null, problem: "", bad: [], legal, read, walk };
+    const tools = (me.tools = studio.makeTools(scene, me, buildings));
+    me.view = ui.building({
+      label: "The building", onAct: tools.act, onKey: tools.press, keys: tools.keys,
+      describe: (cell) => studio.describe(me.map, cell, me.walked?.cell), ...view,
+    });
+    tools.listen(me.view);
+
+    // Take a text; keep the last building where it draws none.
+    function read() {
+      const { text } = scene.state;
+      const before = me.map;
+      if (text === me.text) return;
+      me.text = text;
+      [me.problem, me.bad] = ["", []];
+      try {
+        me.map = at.drawMap(text).map;
+        at.parseMap(me.map.text);
+      } catch ({ message, row, column }) {
+        me.problem = message;
+        me.bad = [row - 1, row, row + 1].flatMap((r) => [column - 1, column, column + 1].map((c) => [r, c]));
+      }
+      const map = (me.map ??= at.parseMap(at.mapTexts.source));
+      const isInside = ([r, c]) => r % 2 && c % 2 && r > 0 && c > 0 && r < 2 * map.height && c < 2 * map.width;
+      me.bad = me.bad.filter(isInside).map(([r, c]) => ((r - 1) / 2) * map.width + (c - 1) / 2);
+      if (before && before.text !== map.text) tools.remember(before.text);
+      me.view.map(map);
+      legal.classList.toggle("ab-now", Boolean(me.problem));
+      legal.textContent = me.problem ? `Not legal yet: ${me.problem}.` : "A legal building.";
+      if (me.problem) scene.say(legal.textContent);
+      tools.write(text);
+      onMap?.(me.problem);
+    }
+    return me;
+  }
+
+  Object.assign(at.studio ??= {}, { MANY, makeEditor });
+})((globalThis.abstransfer ??= {}));
