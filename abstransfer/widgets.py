@@ -18,6 +18,7 @@ from ._widget import ArrayTrait, MapTrait, Scene, Still, as_map
 from ._widget_dial import Dial
 from ._widget_microscope import Microscope
 from ._widget_race import Race
+from ._widget_ripple import Ripple
 from ._widget_studio import Studio
 from ._widget_tau import TauSlider
 
@@ -27,6 +28,7 @@ __all__ = [
     "MapTrait",
     "Microscope",
     "Race",
+    "Ripple",
     "Scene",
     "Still",
     "Studio",

@@ -114,15 +114,18 @@
       view.cells.forEach((tile, cell) => tile.classList.toggle("ab-lit", chosen.has(cell)));
       frames(view.cells.map((_, cell) => (chosen.has(cell) ? 1 : null)));
     };
-    const frames = perCell(
-      "frames", "signs", "rect",
+    const frame = (key, kind) => perCell(
+      key, "signs", "rect",
       (cell) => {
         const { x, y } = centre(cell);
         const size = { width: CELL - 3, height: CELL - 3 };
-        return { x: x - CELL / 2 + 1.5, y: y - CELL / 2 + 1.5, ...size, class: "ab-litframe" };
+        return { x: x - CELL / 2 + 1.5, y: y - CELL / 2 + 1.5, ...size, class: kind };
       },
       () => {},
     );
+    const frames = frame("frames", "ab-litframe");
+    const chosen = frame("chosen", "ab-chosen");
+    view.choose = (cell) => chosen(view.cells.map((_, other) => (other === cell ? 1 : null)));
 
     // Robots: the mark of their arm on a disc; several in a cell stand side by side.
     view.robots = (robots) => {
