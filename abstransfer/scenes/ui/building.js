@@ -146,8 +146,9 @@
 
     if (canWalk) {
       svg.addEventListener("keydown", press);
+      // On the frame: an SVG that listens for the focus would be a tab stop of its own.
       for (const kind of ["focusin", "focusout"]) {
-        svg.addEventListener(kind, () => queueMicrotask(showRing));
+        frame.addEventListener(kind, () => queueMicrotask(showRing));
       }
       svg.addEventListener("click", (event) => {
         const cell = cellOf(event);
@@ -158,9 +159,8 @@
     }
     if (onPoint) {
       const point = (event) => onPoint(cellOf(event));
-      for (const kind of ["pointerover", "focusin"]) svg.addEventListener(kind, point);
-      svg.addEventListener("pointerleave", () => onPoint(null));
-      svg.addEventListener("focusout", () => onPoint(null));
+      for (const kind of ["pointerover", "focusin"]) frame.addEventListener(kind, point);
+      for (const kind of ["pointerleave", "focusout"]) frame.addEventListener(kind, () => onPoint(null));
     }
     return ui.addLayers(view);
   }
