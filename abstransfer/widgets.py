@@ -17,6 +17,7 @@ another.
 from ._widget import ArrayTrait, MapTrait, Scene, Still, as_map
 from ._widget_dial import Dial
 from ._widget_microscope import Microscope
+from ._widget_paint import Paint
 from ._widget_race import Race
 from ._widget_ripple import Ripple
 from ._widget_studio import Studio
@@ -27,6 +28,7 @@ __all__ = [
     "Dial",
     "MapTrait",
     "Microscope",
+    "Paint",
     "Race",
     "Ripple",
     "Scene",

@@ -1,0 +1,241 @@
+// Paint by abstract state, page 4: cells that look alike are painted alike, in two
+// buildings.  Forget features, and count what is left.
+
+(function paint(at) {
+  "use strict";
+
+  const ALL = 2 ** 11 - 1; // of a set of features, as of an abstract state, a bit each
+  const CHOICES = { "All 11": ALL, "The 8 sights": 255, "No sights": ALL - 255, None: 0 };
+  const BETS = { // with the numbers they stand for
+    bet: { few: [90, "about 90"], some: [500, "about 500"], all: [2048, "nearly all"] },
+    bet_new: { third: [1 / 3, "one in three"], tenth: [0.1, "one in ten"], hundredth: [0.01, "one in a hundred"] },
+  };
+  const SIDES = [["task", "source", "small"], ["away", "map", "large"]];
+
+  at.scene("paint", {
+    title: "Paint by abstract state",
+    state: {
+      map: at.mapTexts?.target ?? "", source: at.mapTexts?.source ?? "", task: 0, away: 11, z: 530, features: ALL,
+      bet: "", bet_new: "",
+    },
+    limits: { task: [0, 999], away: [0, 999], z: [-1, ALL], features: [0, ALL] },
+    local: ["bet", "bet_new"],
+
+    build(scene) {
+      const { ui, paint } = at;
+      const { make, number, count, plural } = ui;
+      let counted = {}; // { home, away, solved } as far as they are counted
+      let [full, seen] = [null, null]; // counts with all features; looks with those kept
+      let pointed = null; // the abstract state of the cell under the pointer
+      let timer = null;
+
+      const sides = SIDES.map(([task, map, size], i) => {
+        const side = { task, of: map, size, tasks: null };
+        side.view = ui.building({
+          label: `The ${size} building, painted by abstract state`,
+          describe: (cell) => describe(side, cell),
+          onAct: ({ cell }) => act(side, cell),
+          onPoint: (cell) => point(side, cell),
+          keys: [["Enter, Space", "keep what looks like the cell lit; on a hollow star: make it the goal"]],
+          minCell: i ? 8 : 16,
+        });
+        const slider = scene.slider(task, {
+          label: `Goal of the ${size} building`, step: 1, format: (n) => `${n + 1} of ${side.map?.goals.length ?? ""}`,
+        });
+        side.node = make("div", { class: "ab-scene" }, slider, side.view.node);
+        return side;
+      });
+      const [home, away] = sides;
+
+      const questions = at.FEATURES.map((name, f) => {
+        const box = ui.toggle({ label: ui.sight(name), onInput: () => scene.set({ features: scene.state.features ^ (1 << f) }) });
+        const answer = make("b", {});
+        box.node.append(answer);
+        return { ...box, answer };
+      });
+      const words = make("p", {});
+      const presets = Object.entries(CHOICES).map(([text, features]) => ui.button(text, () => scene.set({ features })).node);
+      const bars = {
+        counts: ui.barChart({ label: "Abstract states that occur", format: count, low: 0 }),
+        shares: ui.barChart({ label: "Shares of states", format: (x) => `${number(x)} %`, low: 0, high: 100 }),
+      };
+      const found = make("div", { class: "ab-scene" }, bars.counts.node, bars.shares.node, make("p", { class: "ab-note" }, "A ring: with all 11 features."));
+      const bet = (name, question) => scene.bet(name, {
+        question, options: Object.fromEntries(Object.entries(BETS[name]).map(([key, [, text]]) => [key, text])),
+      });
+      scene.add(
+        make("div", { class: "ab-columns ab-pair" }, sides.map(({ node }) => node)),
+        words,
+        make(
+          "fieldset", { class: "ab-choice" },
+          make("legend", {}, "What the robot sees there. Tick off what it shall forget:"),
+          make("div", { class: "ab-questions" }, questions.map(({ node }) => node)),
+        ),
+        scene.row(...presets),
+        bet("bet", "Bet first: how many of 2,048 combinations of answers occur in the small building?"),
+        bet("bet_new", "And of all states of the large building, how many look like nothing in the small one?"),
+        found,
+      );
+      scene.onLeave(() => clearTimeout(timer));
+
+      // ---- counting, in slices, while the reader looks already
+
+      function begin(state) {
+        for (const side of sides) {
+          side.map = at.parseMap(state[side.of]);
+          scene.limit(side.task, [0, side.map.goals.length - 1]);
+        }
+        [counted, full, seen] = [{}, null, null];
+        const jobs = [["away", away, false], ["home", home, false], ["home", home, true]].map(
+          ([name, { map }, isSolved]) => [name, paint.tally(map, isSolved)],
+        );
+        clearTimeout(timer);
+        timer = setTimeout(advance, 0, jobs, null);
+      }
+      function advance(jobs, latest) {
+        const end = performance.now() + 15;
+        while (jobs.length && performance.now() < end) {
+          const { value, done } = jobs[0][1].next();
+          if (done) counted[jobs.shift()[0]] = latest;
+          else latest = value;
+        }
+        const isNew = counted.home && !seen;
+        timer = jobs.length ? setTimeout(advance, 0, jobs, latest) : null;
+        if (!timer) full = paint.counts(counted.home, counted.away, ALL);
+        if (!timer || isNew) show(scene.state);
+        if (!timer) scene.redraw();
+      }
+
+      // ---- what cells look like
+
+      const masked = (z, state = scene.state) => z & state.features;
+      const lookOf = (side, cell) => (side.tasks.terminal[cell] ? -1 : masked(side.tasks.rho[cell]));
+      const alike = (side, z) =>
+        z < 0 ? [] : [...side.tasks.rho.keys()].filter((cell) => lookOf(side, cell) === masked(z));
+      const isNewLook = (z) => seen && !seen.small[masked(z)];
+      const hasBet = (state) => state.bet && state.bet_new;
+
+      function describe(side, cell) {
+        const { map, tasks } = side;
+        const at_ = ui.place(map, cell);
+        if (tasks.terminal[cell]) return `${at_}: the goal`;
+        const star = map.goals.includes(cell) ? "the goal of another task; " : "";
+        return `${at_}: ${star}${ui.sights(masked(tasks.rho[cell]))}; ${plural(alike(side, tasks.rho[cell]).length, "cell")} of this task`;
+      }
+      function act(side, cell) {
+        const other = side.map.goals.indexOf(cell);
+        if (side.tasks.terminal[cell]) return scene.say("This is the goal: nothing is left to decide there.");
+        if (other >= 0) return scene.set({ [side.task]: other });
+        const z = side.tasks.rho[cell];
+        scene.set({ z: z === scene.state.z ? -1 : z });
+      }
+      function point(side, cell) {
+        const z = cell === null || side.tasks.terminal[cell] ? null : side.tasks.rho[cell];
+        if (z === pointed) return;
+        pointed = z;
+        scene.redraw();
+      }
+
+      function show(state) {
+        if (counted.home && counted.away) seen = paint.looks(counted.home, counted.away, state.features);
+        for (const side of sides) {
+          const looks = Array.from(side.tasks.rho, (_, cell) => lookOf(side, cell));
+          const isPlain = (z) => z < 0 || !seen || (hasBet(state) && isNewLook(z));
+          side.view.classes(looks.map((z) => (isPlain(z) ? -1 : seen.look[z])));
+          side.view.texts(looks.map((z) => (z >= 0 && hasBet(state) && isNewLook(z) ? "?" : null)));
+        }
+      }
+
+      function light(state) {
+        const z = pointed ?? state.z;
+        for (const side of sides) side.view.lit((side.lit = alike(side, z)));
+        questions.forEach(({ set, answer, node }, f) => {
+          const isKept = (state.features >> f) & 1;
+          const isYes = isKept && z >= 0 && (z >> f) & 1;
+          set(isKept);
+          answer.textContent = !isKept ? "forgotten" : z < 0 ? "" : isYes ? "yes" : "no";
+          node.classList.toggle("ab-now", Boolean(isYes));
+        });
+        words.textContent = z < 0
+          ? "Point at a cell: what looks like it to the robot is lit in both buildings. A click keeps it lit."
+          : `Lit, because alike: ${sides.map((side) => litText(side, z)).join("; ")}.`;
+      }
+      const total = (side, z) => seen[side.size][masked(z)];
+      function litText(side, z) {
+        const all = seen ? ` and ${plural(total(side, z), "state")} of all ${side.map.goals.length} tasks` : "";
+        return `in the ${side.size} building ${plural(side.lit.length, "cell")} of this task${all}`;
+      }
+
+      // ---- what is found
+
+      const NAMES = {
+        source: "abstract states in the small building", target: "abstract states in the large one",
+        unseen: "of the large one's states look new", torn: "of the small one's states: in a conflict (no action suits all that look so)",
+        right: "of them: one action for each abstract state is right",
+      };
+      const now = (state) => (full && hasBet(state) ? paint.counts(counted.home, counted.away, state.features) : null);
+
+      function showFound(state, counts) {
+        found.hidden = !counts;
+        if (!counts) return;
+        const mark = (key) => (state.features === ALL ? undefined : full[key]);
+        const row = (key) => ({ name: NAMES[key], value: counts[key], mark: mark(key) });
+        bars.counts.set(["source", "target"].map(row));
+        bars.shares.set(["unseen", "torn", "right"].map(row));
+        found.lastChild.hidden = state.features === ALL;
+      }
+      const nearest = (name, x) =>
+        Object.keys(BETS[name]).reduce((best, key) => {
+          const far = (k) => Math.abs(Math.log(BETS[name][k][0] / Math.max(x, 1e-9)));
+          return far(key) < far(best) ? key : best;
+        });
+      function closing(state, counts) {
+        if (!counts) return "";
+        const bits = questions.filter((_, f) => (state.features >> f) & 1).length;
+        const bets = `${scene.betResult("bet", nearest("bet", full.source))} ${scene.betResult("bet_new", nearest("bet_new", full.unseen / 100))}`;
+        const before = state.features === ALL ? "" :
+          ` With all 11 it was ${full.source}, ${full.target}, ${number(full.unseen)} %, ${number(full.torn, 0)} % and ${number(full.right, 0)} %.`;
+        return (
+          `${bets} With ${plural(bits, "feature")}, ${counts.source} of ${count(2 ** bits)} abstract states occur in the small ` +
+          `building and ${counts.target} in the large one, where ${number(counts.unseen)} % of the states look new. At home ` +
+          `${number(counts.torn, 0)} % of the states lie in a conflict; one action for each abstract state is right in ` +
+          `${number(counts.right, 0)} %.${before}`
+        ).trim();
+      }
+      function twin(state, counts) {
+        const digits = { source: 0, target: 0 };
+        const shown = (key, of) => (of ? number(of[key], digits[key] ?? 4) + (key in digits ? "" : " %") : "–");
+        const z = pointed ?? state.z;
+        return {
+          caption: `Lit: ${z < 0 ? "nothing" : ui.sights(masked(z))}.`,
+          head: ["number", "with the features ticked", "with all 11"],
+          rows: [
+            ...sides.flatMap((side) => [
+              [`cells lit in the ${side.size} building`, side.lit.length, ""],
+              [`states of all its tasks`.replace("its", `its ${side.map.goals.length}`), z < 0 || !seen ? "–" : total(side, z), ""],
+            ]),
+            ...Object.keys(NAMES).map((key) => [NAMES[key], shown(key, counts), shown(key, counts && full)]),
+          ],
+        };
+      }
+
+      return function draw(state, changed) {
+        const has = (...names) => names.some((name) => changed.has(name));
+        if (has("map", "source")) begin(state);
+        for (const side of sides) {
+          if (!has("map", "source", side.task)) continue;
+          side.tasks = at.navigationTasks(side.map, { keep: [state[side.task]] });
+          side.view.map(side.map, { aim: side.tasks.goal[0] });
+        }
+        if (changed.size) show(state);
+        light(state);
+        if (has("task", "away", "features")) sides.forEach(({ view }) => view.rename());
+        if (has("task", "away", "features", "z")) scene.say(words.textContent);
+        const counts = now(state);
+        showFound(state, counts);
+        scene.twin(() => twin(state, counts));
+        scene.close(closing(state, counts));
+      };
+    },
+  });
+})((globalThis.abstransfer ??= {}));
