@@ -16,6 +16,7 @@ another.
 
 from ._widget import ArrayTrait, MapTrait, Scene, Still, as_map
 from ._widget_dial import Dial
+from ._widget_filling import Filling
 from ._widget_microscope import Microscope
 from ._widget_paint import Paint
 from ._widget_race import Race
@@ -26,6 +27,7 @@ from ._widget_tau import TauSlider
 __all__ = [
     "ArrayTrait",
     "Dial",
+    "Filling",
     "MapTrait",
     "Microscope",
     "Paint",

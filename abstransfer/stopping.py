@@ -1,0 +1,160 @@
+"""
+When would you sign?  Verdicts after each life, in several orders of the lives.
+
+Who looks after every life and stops as soon as an interval leaves 0 looks often.
+Claims are the first five, and "same": each arm against itself, its lives shuffled
+twice, where nothing is to be found.  Page 9 of the book teaches this module.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+
+from .claims import CLAIMS
+from .findings import MARGIN
+from .results import Results
+from .stats import LEVEL, RESAMPLES, Interval
+from .verdicts import UNDECIDED, Finding, combine, judge
+
+FIRST_LOOK = 5  # as in exercise 3 of page 9: before, intervals are far too narrow
+N_ORDERS = 5  # as run, and four shuffles
+SAME = "same"
+KEYS = (*(claim.key for claim in CLAIMS[:5]), SAME)
+
+
+class Comparison(NamedTuple):
+    """What one finding rests on: two arms, or a fixed effect."""
+
+    text: str
+    a: str
+    b: str
+    threshold: float
+    above: bool  # whether the claim is that the effect is above the threshold
+    main: bool
+    fixed: float | None = None  # an exact effect, which no life changes
+
+    def finding(self, effect: Interval) -> Finding:
+        """Return the finding for an effect."""
+        verdict = judge(effect, self.threshold, self.above)
+        unit = "ratio" if self.fixed is None else "reward"
+        return Finding(self.text, effect, unit, verdict, self.main)
+
+
+class Stops(NamedTuple):
+    """What a reader who looks after each life does, in all orders."""
+
+    verdict: str  # of all lives
+    settled: int  # lives from which on no verdict changes, in any order
+    stops: tuple[int | None, ...]  # lives after which each track is signed, if it is
+    wrong: int  # how many of them are signed against all lives
+
+
+def comparisons(results: Results, key: str) -> tuple[Comparison, ...]:
+    """
+    Return what a claim rests on, (K,).
+
+    >>> from abstransfer.results import read_results
+    >>> comparisons(read_results("goal-target"), "2")[0][:4]
+    ('nd-soft over nd-hard', 'nd-soft', 'nd-hard', 0.0)
+    """
+    if key not in KEYS:
+        raise ValueError(f"key must be one of {', '.join(KEYS)}, got {key!r}")
+    if key == SAME:
+        names = (arm.name for arm in results.arms)
+        return tuple(
+            Comparison(f"{name} over itself", name, name, 0.0, True, True)
+            for name in names
+        )
+    one = results._replace(goals=results.goals[:, :1])  # quick: effects are not read
+    found = []
+    for text, effect, unit, _, main in CLAIMS[KEYS.index(key)].findings(one, 0):
+        above = " no better than " not in text
+        threshold = 0.0 if above else MARGIN
+        if unit == "ratio":
+            a, b = re.split(" over | no better than ", text)
+            found.append(Comparison(text, a, b, threshold, above, main))
+        else:
+            found.append(Comparison(text, "", "", 0.0, True, main, effect.estimate))
+    return tuple(found)
+
+
+def orders(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
+    """
+    Return the orders of the lives, and those of partners for "same", (5, N) each.
+
+    Order 0 is as run; order k is shuffled with seed [k, 0], a partner with [k, 1].
+
+    >>> orders(4)[0][0]
+    array([0, 1, 2, 3])
+    """
+
+    lives, partners = (
+        [np.random.default_rng([k, j]).permutation(n_runs) for k in range(N_ORDERS)]
+        for j in (0, 1)
+    )
+    return np.stack([np.arange(n_runs), *lives[1:]]), np.stack(partners)
+
+
+def running_gains(a: np.ndarray, b: np.ndarray) -> Interval:
+    """
+    Return by which share `a` exceeds `b`, both (N, K), after 2..N lives, (N - 1, K).
+
+    Row n - 2 is what ``relative_gain(a[:n], b[:n], rng=0)`` gives, column by column.
+
+    >>> x = np.array([[6.0], [6.0], [6.0]])
+    >>> running_gains(x, x / 2).low.ravel()
+    array([1., 1.])
+    """
+    rows = []
+    for n in range(2, len(a) + 1):
+        drawn = np.random.default_rng(0).integers(0, n, (RESAMPLES, n))
+        drawn += n * np.arange(RESAMPLES)[:, None]
+        times = np.bincount(drawn.ravel(), minlength=n * RESAMPLES)
+        times = times.reshape(RESAMPLES, n).astype(float)
+        gain = (times @ a[:n]) / (times @ b[:n]) - 1
+        ends = np.quantile(gain, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=0)
+        rows.append((a[:n].mean(axis=0) / b[:n].mean(axis=0) - 1, *ends))
+    return Interval(*np.array(rows).transpose(1, 0, 2))
+
+
+def tracks(results: Results, key: str) -> list[list[str]]:
+    """Return verdicts after 2..N lives by order; for "same" by order and arm."""
+    compared = comparisons(results, key)
+    lives, partners = orders(results.goals.shape[1])
+    found = []
+    for first, second in zip(lives, partners if key == SAME else lives, strict=True):
+        pairs = [c for c in compared if c.fixed is None]
+        a = np.stack([results.totals(c.a)[first] for c in pairs], axis=1)
+        b = np.stack([results.totals(c.b)[second] for c in pairs], axis=1)
+        ends = np.stack(running_gains(a, b), axis=-1)  # (N - 1, K, 3)
+        findings = [
+            [c.finding(Interval(*effect)) for c, effect in zip(pairs, row, strict=True)]
+            for row in ends.tolist()
+        ]
+        exact = [c.finding(Interval(*[c.fixed] * 3)) for c in compared[len(pairs) :]]
+        if key == SAME:
+            found += [[f.verdict for f in arm] for arm in zip(*findings, strict=True)]
+        else:
+            found.append([combine(row + exact) for row in findings])
+    return found
+
+
+def read_along(found: list[list[str]]) -> Stops:
+    """
+    Return what a reader does who looks from `FIRST_LOOK` lives on.
+
+    >>> late, early = ["undecided"] * 6 + ["holds"], ["undecided"] * 3 + ["holds"] * 4
+    >>> read_along([late, early])
+    Stops(verdict='holds', settled=8, stops=(8, 5), wrong=0)
+    """
+    stops, settled, wrong = [], 2, 0
+    for track in found:
+        looks = enumerate(track[FIRST_LOOK - 2 :], FIRST_LOOK)
+        stops.append(next((n for n, verdict in looks if verdict != UNDECIDED), None))
+        wrong += bool(stops[-1]) and track[stops[-1] - 2] != track[-1]
+        changes = (n for n, verdict in enumerate(track, 2) if verdict != track[-1])
+        settled = max(settled, 1 + max(changes, default=1))
+    return Stops(found[0][-1], settled, tuple(stops), wrong)
