@@ -118,20 +118,12 @@ class Filling(Scene):
             f"and signs as soon as the interval leaves 0, signs {signed}: "
             f"{signed / len(trap.stops):.0%}."
         )
-        rows = [
-            (
-                arm,
-                *(
-                    f"{m[arm].estimate:,.0f} [{m[arm].low:,.0f}, {m[arm].high:,.0f}]"
-                    for m in means
-                ),
-            )
-            for arm in goals
+        texts = [
+            {arm: "{:,.0f} [{:,.0f}, {:,.0f}]".format(*mean) for arm, mean in m.items()}
+            for m in means
         ]
-        head = (
-            "arm",
-            *(f"mean after {len(some)} lives, 95 % interval" for some in taken),
-        )
+        rows = [(arm, *(text[arm] for text in texts)) for arm in goals]
+        head = ("arm", *(f"mean of {len(some)} lives, interval" for some in taken))
         return Still(frames, caption, head, rows)
 
 
@@ -140,7 +132,7 @@ def _data(name: str) -> dict:
     """Return all that the browser needs of stored results."""
     results = read_results(name)
     lives, partners = orders(results.goals.shape[1])
-    titles = {claim.key: claim.title for claim in CLAIMS} | {SAME: ""}
+    titles = {claim.key: claim.title for claim in CLAIMS}
     return {
         "arms": [arm.name for arm in ARMS],
         "totals": [results.totals(arm.name).tolist() for arm in ARMS],
@@ -148,7 +140,7 @@ def _data(name: str) -> dict:
         "partners": partners.tolist(),
         "claims": {
             key: {
-                "title": titles[key],
+                "title": titles.get(key, ""),
                 "compared": [list(c) for c in comparisons(results, key)],
             }
             for key in KEYS

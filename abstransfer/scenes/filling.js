@@ -119,15 +119,15 @@
           return (
             `You signed after ${signed} lives. Each arm was compared with itself, so there is nothing to sign. ` +
             `But a reader ${looks} the interval leaves 0, signs ${n.length} of ${found.stops.length} comparisons ` +
-            `(nine arms, five orders): ${number((100 * n.length) / found.stops.length, 0)} % wrong, not 5 %. Fix the number of lives before you look.`
+            `(nine arms, five orders): ${number((100 * n.length) / found.stops.length, 0)} % wrong, where one look is wrong in 5 %. Fix the number of lives before you look.`
           );
         }
         const truth = Object.keys(BETS).find((key) => found.settled <= BETS[key][0]);
         return (
           `${claim === "1" ? scene.betResult("bet", truth) : ""} You signed “${verdict(signed)}” after ${signed} lives; all ${runs} say “${found.verdict}”. ` +
           `From ${found.settled} lives on no order of five says otherwise. A reader ${looks} the claim is decided, ` +
-          `stops after ${[...new Set(n)].sort((a, b) => a - b).join(", ")} and is wrong in ${found.wrong} of ${found.stops.length} orders. ` +
-          "An effect this large forgives it. Now compare each arm with itself."
+          `${n.length ? `stops after ${[...new Set(n)].sort((a, b) => a - b).join(", ")}` : "never does"} and is wrong in ${found.wrong} of ${found.stops.length} orders` +
+          `${found.wrong ? "" : ": an effect this large forgives it"}. Now compare each arm with itself.`
         ).trim();
       }
       const verdict = (n) => combine(findingsOf(state.data, state.claim, state.order, n));
@@ -166,8 +166,10 @@
         const findings = state.bet ? findingsOf(data, claim, state.order, n) : [];
         const drawnOnes = findings.filter((f) => f.fixed === null);
         const ends = drawnOnes.flatMap((f) => f.effect).map((x) => 100 * x);
+        const [least, most] = [Math.min(0, ...ends), Math.max(1, ...ends)];
+        const pad = (most - least) / 12;
         effects.set({
-          from: 1.05 * Math.min(0, ...ends), to: 1.05 * Math.max(1, ...ends), axis: "goals more, percent", format: count, zero: 100 * data.claims[claim].compared[0][3],
+          from: least - pad, to: most + pad, axis: "goals more, percent", format: count, zero: 100 * data.claims[claim].compared[0][3],
           items: drawnOnes.map((f) => ({
             arm: f.a, interval: f.effect.map((x) => 100 * x), lit: f.verdict !== UNDECIDED,
             name: isSame ? `${nameOf(f.a)} over itself` : `${nameOf(f.a)} over ${nameOf(f.b)}${f.main ? "" : " (condition)"}`,
