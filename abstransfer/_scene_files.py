@@ -11,7 +11,6 @@ import re
 from functools import cache
 from importlib.resources import files
 
-from ._squeeze import squeezed
 from ._style import PALETTE
 from .maps import read_map
 
@@ -42,11 +41,11 @@ EXTRA = {
 
 @cache
 def script() -> str:
-    """Return all parts and scenes as one classic script."""
+    """Return all parts and scenes as one classic script, as legible as its files."""
     maps = {name: str(read_map(name)) for name in ("source", "target")}
     data = json.dumps({"palette": _small_palette(), "mapTexts": maps})
     head = f"Object.assign((globalThis.abstransfer ??= {{}}), {data});"
-    return "\n".join([head, *map(squeezed, _scripts())]) + "\n"
+    return "\n".join([head, *_scripts()])
 
 
 @cache
@@ -61,9 +60,19 @@ def style() -> str:
     return rules + re.sub(r"/\*.*?\*/\n*", "", text, flags=re.DOTALL)
 
 
+@cache
 def page_script() -> str:
-    """Return the script of the built book: it mounts what it finds."""
-    return script() + "abstransfer.mountAll();\n"
+    """
+    Return the script of the built book: it mounts what it finds.
+
+    Comments go, and names inside functions get short, where `minify` is installed.
+    """
+    text = script() + "abstransfer.mountAll();\n"
+    try:
+        import minify
+    except ImportError:
+        return text
+    return minify.string("application/javascript", text)
 
 
 def module(name: str) -> str:

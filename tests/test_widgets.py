@@ -1,6 +1,7 @@
 """Scenes as widgets: what they print, what they show, what they accept."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -66,24 +67,22 @@ def test_a_widget_brings_all_it_needs(kind):
     state = kind().get_state()
 
     assert state["_esm"] == _scene_files.module(kind.scene)
-    assert "import " not in state["_esm"].replace("important", "")
-    assert "//" not in state["_esm"].replace("http://www.w3.org/2000/svg", "").replace(
-        "// ", ""
-    ), "no address of another host"
+    assert not re.search(r"^\s*import\b", state["_esm"], re.MULTILINE)
+    hosts = set(re.findall(r"https?://[^/\s\"']*", state["_esm"]))
+    assert hosts == {"http://www.w3.org"}, "a name of SVG, and nothing is loaded"
     assert set(kind.defaults()) <= set(state)
 
 
 # The front end
 
 
-def test_the_script_is_valid_and_small(tmp_path):
+def test_the_script_is_valid(tmp_path):
     for name, text in (
         ("page.js", _scene_files.page_script()),
         ("widget.mjs", _scene_files.module("microscope")),
     ):
         (tmp_path / name).write_text(text)
         subprocess.run(["node", "--check", tmp_path / name], check=True)
-        assert len(text.encode()) < 150_000
 
 
 def test_files_of_the_front_end_are_short():
