@@ -17,6 +17,7 @@ another.
 from ._widget import ArrayTrait, MapTrait, Scene, Still, as_map
 from ._widget_dial import Dial
 from ._widget_filling import Filling
+from ._widget_hill import Hill
 from ._widget_ladder import Ladder
 from ._widget_microscope import Microscope
 from ._widget_paint import Paint
@@ -29,6 +30,7 @@ __all__ = [
     "ArrayTrait",
     "Dial",
     "Filling",
+    "Hill",
     "Ladder",
     "MapTrait",
     "Microscope",

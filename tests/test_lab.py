@@ -22,6 +22,7 @@ SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to p
     "Race": ("Step", "t", 38, 7),
     "TauSlider": ("Advice until step τ", "tau", 8_500_000, 6_000_000),
     "Paint": ("Goal of the small building", "task", 5, 2),
+    "Hill": ("Iteration", "t", 20, 7),
     "Ripple": ("Sweep", "k", 8, 3),
     "Dial": ("Luck: run", "luck", 2, 5),
     "Ladder": ("A move succeeds with probability", "success", 0.8, 0.65),
