@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-from typing import NamedTuple
-
 import numpy as np
 import traitlets
 
+from ._abstract_counts import Counts, count_states, mask_of
 from ._cells import count
 from ._stills import building_svg
 from ._task_cells import abstract_ranks
 from ._widget import MapTrait, Scene, Still
-from .maps import Map
 from .navigation import FEATURES, LABELS, NavigationTasks, navigation_tasks
-from .policies import count_votes, unseen_share
-from .solvers import optimal_actions, optimal_values
 
 ALL = (1 << len(FEATURES)) - 1
 CHOICES = {  # rows of the still picture's table
@@ -46,16 +41,6 @@ class FeaturesTrait(traitlets.TraitType):
         if isinstance(value, str) or not set(value) <= set(FEATURES):
             self.error(obj, value)
         return tuple(name for name in FEATURES if name in value)
-
-
-class Counts(NamedTuple):
-    """What features tell apart; shares are of states, goals left out."""
-
-    source: int  # abstract states that occur
-    target: int
-    unseen: float  # share of the target that looks like nothing in the source
-    torn: float  # share of the source in which no one action suits all that look so
-    right: float  # share of the source where the best such action is optimal
 
 
 class Paint(Scene):
@@ -124,7 +109,9 @@ class Paint(Scene):
     def still(self) -> Still:
         """Return the painted building, and what is lit in both."""
         shown, lit, all_ = self._shown(), self.lit, self.counts
-        rank = abstract_ranks(shown["source"], 0)
+        task = min(self.task, len(self.source.goals) - 1)
+        home = navigation_tasks(self.source, keep=[task], features=self.features)
+        rank = abstract_ranks(home, 0)
         texts = ["" if r < 0 else str(r + 1) for r in rank]
         alt = f"The small building: {rank.max() + 1} numbers for what looks alike."
         goal = shown["source"].goal[0]
@@ -157,35 +144,3 @@ class Paint(Scene):
             "one action right",
         )
         return Still(frames, caption, head, rows)
-
-
-def mask_of(features) -> int:
-    """
-    Return the number in which feature f is bit f.
-
-    >>> mask_of(["near_goal", "see_door_far_head_to_goal"])
-    258
-    """
-    return sum(1 << FEATURES.index(name) for name in features)
-
-
-@lru_cache(maxsize=64)
-def count_states(source: Map, target: Map, features: tuple[str, ...]) -> Counts:
-    """Return what these features tell apart, over all tasks of two buildings."""
-    home, away = (navigation_tasks(m, features=features) for m in (source, target))
-    seen, abroad = (tasks.rho[~tasks.mdp.terminal] for tasks in (home, away))
-    suits = count_votes(_optimal(source), home.rho, home.n_abstract).max(axis=1)
-    states = np.bincount(seen, minlength=home.n_abstract)
-    return Counts(
-        source=len(np.unique(seen)),
-        target=len(np.unique(abroad)),
-        unseen=unseen_share(abroad, seen),
-        torn=float(states[suits < states].sum() / len(seen)),
-        right=float(suits.sum() / len(seen)),
-    )
-
-
-@lru_cache(maxsize=2)
-def _optimal(source: Map) -> np.ndarray:
-    mdp = navigation_tasks(source).mdp
-    return optimal_actions(mdp, optimal_values(mdp))

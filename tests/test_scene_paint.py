@@ -10,8 +10,8 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 from traitlets import TraitError
 
 from abstransfer import maps
-from abstransfer._widget_paint import FEATURES, count_states
-from abstransfer.navigation import navigation_tasks
+from abstransfer._abstract_counts import count_states
+from abstransfer.navigation import FEATURES, navigation_tasks
 from abstransfer.widgets import Paint
 
 SMALL, LARGE = maps.read_map("source"), maps.read_map("target")
