@@ -15,6 +15,7 @@ another.
 """
 
 from ._widget import ArrayTrait, MapTrait, Scene, Still, as_map
+from ._widget_ballot import Ballot
 from ._widget_dial import Dial
 from ._widget_filling import Filling
 from ._widget_hill import Hill
@@ -28,6 +29,7 @@ from ._widget_tau import TauSlider
 
 __all__ = [
     "ArrayTrait",
+    "Ballot",
     "Dial",
     "Filling",
     "Hill",

@@ -21,6 +21,7 @@ SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to p
     "Microscope": ("Step", "t", 110, 7),
     "Race": ("Step", "t", 38, 7),
     "TauSlider": ("Advice until step τ", "tau", 8_500_000, 6_000_000),
+    "Ballot": ("The dial: β", "beta", 2.5, 0.5),
     "Paint": ("Goal of the small building", "task", 5, 2),
     "Hill": ("Iteration", "t", 20, 7),
     "Ripple": ("Sweep", "k", 8, 3),
