@@ -31,17 +31,12 @@ SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to p
 }
 
 
-@pytest.fixture
-def lab(tmp_path, name):
-    """The address of a JupyterLab of its own, with one notebook that shows a scene."""
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    """A JupyterLab of its own: its folder, its address and its token."""
     if not find_spec("jupyterlab"):
         unavailable("JupyterLab is not installed; run: pip install -e '.[test]'")
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    notebook = new_notebook(
-        cells=[new_code_cell(source) for source in (FIRST.format(name), "1")],
-        metadata={"kernelspec": kernel},
-    )
-    nbformat.write(notebook, tmp_path / "scene.ipynb")
+    folder = tmp_path_factory.mktemp("lab")
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -49,21 +44,21 @@ def lab(tmp_path, name):
     options = {
         "ServerApp.ip": "127.0.0.1",
         "ServerApp.port": port,
-        "ServerApp.root_dir": tmp_path,
+        "ServerApp.root_dir": folder,
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "IdentityProvider.token": token,
     }
     homes = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR")
-    env = {**os.environ, **{home: str(tmp_path / home.lower()) for home in homes}}
+    env = {**os.environ, **{home: str(folder / home.lower()) for home in homes}}
     tool = Path(sys.executable).with_name("jupyter-lab")
     command = [tool, *(f"--{name}={value}" for name, value in options.items())]
     address = f"http://127.0.0.1:{port}"
-    with (tmp_path / "log").open("w") as log:
+    with (folder / "log").open("w") as log:
         server = subprocess.Popen(command, env=env, stdout=log, stderr=log)
         try:
-            wait_for(f"{address}/api", server, tmp_path / "log")
-            yield f"{address}/lab/tree/scene.ipynb?token={token}"
+            wait_for(f"{address}/api", server, folder / "log")
+            yield folder, f"{address}/lab/tree/{{}}.ipynb?reset&token={token}"
         finally:
             server.terminate()
             server.wait(10)
@@ -82,8 +77,15 @@ def wait_for(url, server, log):
 
 
 @pytest.fixture
-def page(lab, chromium):
-    """A tab in which the notebook was run; nothing may fail or be fetched there."""
+def page(lab, chromium, name):
+    """A tab in which a scene was run; nothing may fail or be fetched there."""
+    folder, address = lab
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    notebook = new_notebook(
+        cells=[new_code_cell(source) for source in (FIRST.format(name), "1")],
+        metadata={"kernelspec": kernel},
+    )
+    nbformat.write(notebook, folder / f"{name}.ipynb")
     context = chromium.new_context(viewport={"width": 1400, "height": 1200})
     elsewhere, problems = [], []
     context.route(
@@ -94,7 +96,7 @@ def page(lab, chromium):
     )
     page = context.new_page()
     page.on("pageerror", lambda error: problems.append(str(error)))
-    page.goto(lab)
+    page.goto(address.format(name))
     page.locator(".jp-CodeCell").last.wait_for(timeout=60_000)
     page.get_by_text("| Idle").wait_for(timeout=60_000)
     page.get_by_role("menuitem", name="Run", exact=True).click()
@@ -104,7 +106,23 @@ def page(lab, chromium):
     assert problems == []
     assert elsewhere == []
     assert "#" not in page.url
+    stop_kernels(page)
     context.close()
+
+
+def stop_kernels(page):
+    """End the kernel: a dozen of them would fill the memory."""
+    page.evaluate(
+        """async () => {
+            const token = JSON.parse(
+                document.getElementById("jupyter-config-data").textContent).token;
+            const ask = (path, method) => fetch(`/api/sessions${path}`, {
+                method, headers: { Authorization: `token ${token}` } });
+            for (const { id } of await (await ask("", "GET")).json()) {
+                await ask(`/${id}`, "DELETE");
+            }
+        }"""
+    )
 
 
 def run_last_cell(page, code):
@@ -126,6 +144,11 @@ def test_the_browser_and_python_share_the_state_of_a_scene(page, name):
 
     slider.fill(str(moved))
     page.wait_for_timeout(500)  # the change is on its way
+    slider.press("ArrowLeft")  # JupyterLab must not take it for a command
+    expect(slider).not_to_have_value(str(moved))
+    slider.press("ArrowRight")
+    expect(slider).to_have_value(str(moved))
+    page.wait_for_timeout(500)
     assert run_last_cell(page, f"print('said', scene.{trait})") == f"said {moved}"
 
     assert run_last_cell(page, f"scene.{trait} = {pushed}; print('said so')")

@@ -146,8 +146,11 @@
   // What a widget's module exports: traits and state under the same names.
   function renderer(name) {
     return function render({ model, el }) {
-      // JupyterLab would take arrow keys for commands to its cells.
-      el.dataset.lmSuppressShortcuts = "true";
+      // JupyterLab takes arrow keys for commands to its cells, unless the very element
+      // that has the focus tells it not to.
+      el.addEventListener("focusin", ({ target }) => {
+        target.dataset.lmSuppressShortcuts = "true";
+      });
       const names = Object.keys(specs[name].state);
       const host = ui.make("div", { class: "abstransfer-scene" });
       el.append(host);
