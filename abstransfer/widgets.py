@@ -22,6 +22,7 @@ from ._widget_hill import Hill
 from ._widget_ladder import Ladder
 from ._widget_microscope import Microscope
 from ._widget_paint import Paint
+from ._widget_project import Project
 from ._widget_race import Race
 from ._widget_ripple import Ripple
 from ._widget_studio import Studio
@@ -37,6 +38,7 @@ __all__ = [
     "MapTrait",
     "Microscope",
     "Paint",
+    "Project",
     "Race",
     "Ripple",
     "Scene",

@@ -11,6 +11,22 @@
   const MOST = 200; // buildings that are remembered
   const [LEAST, LARGEST] = [2, 60]; // rows and columns of a blank room
 
+  // Buttons that copy and save what is in a text field.
+  function textButtons(scene, area, name) {
+    function copy() {
+      area.select();
+      if (!navigator.clipboard) document.execCommand("copy");
+      navigator.clipboard?.writeText(area.value).catch(() => {});
+      scene.say("Copied.");
+    }
+    function save() {
+      const href = URL.createObjectURL(new Blob([`${area.value}\n`]));
+      at.ui.make("a", { href, download: name }).click();
+      setTimeout(() => URL.revokeObjectURL(href), 1000);
+    }
+    return [scene.button("Copy", copy), scene.button("Save as a file", save)];
+  }
+
   // `me` is what the scene shows: { map, walked, view }; `read` and `walk` renew it.
   // Its tools are those that the state may hold; `buildings` more texts by name.
   function makeTools(scene, me, buildings = {}) {
@@ -124,16 +140,6 @@
       rows: 12, spellcheck: "false", "aria-label": "The building as text",
       oninput: () => scene.set({ text: area.value }),
     });
-    function copy() {
-      area.select();
-      navigator.clipboard?.writeText(area.value).catch(() => {});
-      scene.say("Copied.");
-    }
-    function save() {
-      const href = URL.createObjectURL(new Blob([`${area.value}\n`]));
-      make("a", { href, download: "building.txt" }).click();
-      setTimeout(() => URL.revokeObjectURL(href), 1000);
-    }
     const load = (text) => () => scene.set({ text, task: 0, start: 0, walk: "" });
     const sizes = [["Rows", 9], ["Columns", 15]].map(([label, value]) =>
       make("input", { type: "number", min: LEAST, max: LARGEST, value, "aria-label": label }),
@@ -152,12 +158,12 @@
         make("span", {}, sizes[0], " × ", sizes[1]),
       ),
       make("details", {}, make("summary", {}, "The building as text"), area,
-        scene.row(scene.button("Copy", copy), scene.button("Save as a file", save))),
+        scene.row(...textButtons(scene, area, "building.txt"))),
     ];
     const bar = scene.row(scene.choice("tool", { label: "Tool", options: known }), undo.node, redo.node);
     const write = (text) => document.activeElement === area || (area.value = text);
     return { keys: KEYS, bar, files, act, press, listen, remember, show, write };
   }
 
-  Object.assign(at.studio ??= {}, { makeTools });
+  Object.assign(at.studio ??= {}, { makeTools, textButtons });
 })((globalThis.abstransfer ??= {}));

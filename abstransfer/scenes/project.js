@@ -1,0 +1,222 @@
+// Your turn, page 11: a building and features of one's own, a race in it, and a result
+// card to hand in.
+
+(function project(at) {
+  "use strict";
+
+  const ROOM = `${"|     ".repeat(3)}|\n`;
+  const ROOMS = `${ROOM}${ROOM}|  *  |  *  d  *  |\n${ROOM}${ROOM}`;
+  const SCHOOL = `+-----+-----+-----+
+${ROOMS}+--d--+-----+--d--+
+|. . . . . . . . .|
++--d--+--d--+-----+
+${ROOMS}+-----+-----+-----+`;
+  const NAMES = { nd: "ND", prob: "Prob", grad: "Grad", eager: "eager", rand: "random", optimal: "optimal" };
+  const FROM = { source: "the paper's source", target: "the paper's target", own: "this building itself" };
+  const WAYS = { hard: "hard: obey to the letter", soft: "soft: ever less often" };
+  const BETS = { nd: "ND's", prob: "Prob's", grad: "Grad's", all: "all of them", none: "none" };
+  const PAGES = ["nd", "prob", "grad"];
+  const armOf = (name) => (name === "eager" ? "uniform_available" : name);
+
+  at.scene("project", {
+    title: "Your turn: a race in your own building",
+    state: {
+      text: SCHOOL, tool: "wall", features: at.FEATURES, guides: [...PAGES, "eager"], advice: "source",
+      strategy: "hard", lives: 5, bet: "", goals: {},
+    },
+    limits: {
+      tool: ["wall", "door", "room", "corridor", "goal"], advice: Object.keys(FROM),
+      strategy: Object.keys(WAYS), lives: [1, 20],
+    },
+    local: ["bet", "goals"],
+
+    build(scene) {
+      const { ui, studio, project: rules } = at;
+      const { make, number, count, list } = ui;
+      const { state } = scene;
+      let [found, timer, isAsked, isWanted, isBegun] = [null, null, false, false, false];
+      let [asked, done] = [1, 0]; // tenths of lives
+
+      const me = studio.makeEditor(scene, { buildings: { "The school": SCHOOL }, onMap: () => (isAsked = false) });
+      // Ticks of a list in the state; what an address holds is put in order.
+      const listed = (name, all) => {
+        const now = state[name];
+        return Array.isArray(now) ? all.filter((each) => now.includes(each)) : all;
+      };
+      function ticks(name, label, all, words) {
+        const boxes = all.map((each) => ui.toggle({
+          label: words(each),
+          onInput: (is) => scene.set({ [name]: all.filter((other) => (other === each ? is : listed(name, all).includes(other))) }),
+        }));
+        scene.control(name, () => boxes.forEach(({ set }, i) => set(listed(name, all).includes(all[i]))));
+        const boxed = make("div", { class: "ab-segments" }, boxes.map(({ node }) => node));
+        return make("fieldset", { class: "ab-choice" }, make("legend", {}, label), boxed);
+      }
+      const features = () => listed("features", at.FEATURES);
+      const guides = () => listed("guides", rules.GUIDES);
+
+      const bars = ui.barChart({ label: "How each page drives here", format: (x) => number(x, 1), low: -100, high: 0 });
+      const dots = rules.makeDots("Goals of each life, beside the same life without advice");
+      const [status, told] = [1, 2].map(() => make("p", {}));
+      const start = ui.button("", () => race(), { primary: true });
+      const stop = ui.button("Stop", () => (scene.stop(), (isWanted = false), scene.redraw()));
+      const area = make("textarea", { rows: 14, readonly: true, spellcheck: "false", "aria-label": "The result card as text" });
+      const card = make("details", { open: true }, make("summary", {}, "Result card: hand it in"), area,
+        scene.row(...studio.textButtons(scene, area, "result-card.md")));
+      scene.add(
+        scene.bet("bet", {
+          question: "Bet first: which pages help a robot in the school, compared with no advice?", options: BETS,
+        }),
+        make("div", { class: "ab-columns" },
+          make("div", { class: "ab-body" }, me.tools.bar, me.view.node, me.legal, me.tools.files),
+          make("div", { class: "ab-body" },
+            make("p", {}, "How each page drives here, before any learning: mean value of a cell."), bars.node, told)),
+        make("details", {}, make("summary", {}, "What the robots see"),
+          ticks("features", "The eleven features; tick what counts", at.FEATURES, ui.sight)),
+        scene.row(
+          scene.choice("advice", { label: "The pages are written in", options: FROM }),
+          scene.choice("strategy", { label: "Advice", options: WAYS }),
+        ),
+        scene.row(ticks("guides", "Robots, beside the one without advice", rules.GUIDES, (name) => NAMES[name]),
+          scene.slider("lives", { label: "Lives of each" })),
+        scene.row(start.node, stop.node), status, dots.node, card,
+      );
+      scene.onLeave(() => clearTimeout(timer));
+
+      // ---- before the race: the pages, in slices
+
+      const isLarge = () => me.map.nCells > studio.MANY && !isAsked;
+      const isReady = () => found?.iteration === rules.GRAD && found.drives.grad !== undefined;
+      function prepare() {
+        clearTimeout(timer);
+        found = null;
+        if (me.problem || isLarge()) return;
+        const job = rules.preparing(me.map, features(), state.advice);
+        const slice = () => {
+          const { last, done: isOver } = at.runFor(job, 15);
+          found = last ?? found;
+          timer = isOver ? null : setTimeout(slice);
+          if (isOver && isWanted) learn();
+          scene.redraw();
+        };
+        timer = setTimeout(slice);
+      }
+
+      // ---- the race
+
+      const robots = () => ["none", ...guides()];
+      const livesOf = (name) => (state.goals[name] ?? []).slice(0, state.lives);
+      const isKnown = (name, life) => Number.isFinite(state.goals[name]?.[life]);
+      const missing = () =>
+        Array.from({ length: state.lives }, (_, life) => robots().filter((name) => !isKnown(name, life)).map((name) => [name, life])).flat();
+      const isDone = () => !missing().length;
+      const mayRace = () => state.bet && !me.problem && !scene.isLearning && !isWanted;
+      function race() {
+        if (!mayRace()) return;
+        if (isDone()) return scene.say("All these lives are lived.");
+        isWanted = isAsked = true;
+        if (isReady()) learn();
+        else if (!timer) prepare();
+        scene.redraw();
+      }
+      function learn() {
+        const lives = missing();
+        isWanted = false;
+        [asked, done] = [10 * lives.length, 0];
+        const sums = lives.map(() => 0);
+        scene.learn(rules.jobsOf(me.map, { features: features(), strategy: state.strategy }, found.guides, lives), {
+          onWindow(job, _, goals) {
+            sums[job] += goals;
+            done++;
+          },
+          onDone(job) {
+            const [name, life] = lives[job];
+            const mine = [...(state.goals[name] ?? [])];
+            for (let i = mine.length; i < life; i++) mine[i] = null;
+            mine[life] = sums[job];
+            scene.set({ goals: { ...state.goals, [name]: mine } });
+          },
+        });
+      }
+
+      // ---- what it shows
+
+      const more = (name) => livesOf(name).flatMap((n, i) => (isKnown(name, i) && isKnown("none", i) ? [n - state.goals.none[i]] : []));
+      function verdict() {
+        if (!isDone() || !guides().length || !state.bet) return "";
+        const none = livesOf("none");
+        const { lives } = state;
+        let isSplit = false;
+        const words = guides().map((name) => {
+          const gain = rules.gainOf(livesOf(name), none);
+          const isHurt = gain < 0;
+          const n = more(name).filter((m) => (isHurt ? m < 0 : m > 0)).length;
+          isSplit ||= n < lives;
+          const share = Number.isFinite(gain) ? ` (${isHurt ? "" : "+"}${number(100 * gain)} %)` : "";
+          return `${NAMES[name]} ${isHurt ? "hurt" : "helped"} in ${n}${share}`;
+        });
+        const better = PAGES.filter((name) => rules.gainOf(livesOf(name), none) > 0);
+        const truth = better.length === 3 ? "all" : !better.length ? "none" : better.length === 1 ? better[0] : list(better.map((name) => BETS[name]));
+        const isSchool = ["text", "features", "advice", "strategy"].every((key) => `${state[key]}` === `${scene.spec.state[key]}`);
+        const isBet = isSchool && PAGES.every((name) => guides().includes(name));
+        const mean = none.reduce((a, b) => a + b, 0) / lives;
+        return (
+          `${isBet ? scene.betResult("bet", truth) : ""} A life without advice reaches ${count(mean)} goals. Of ` +
+          `${ui.plural(lives, "life").replace("lifes", "lives")} with the same luck, ${list(words)}.` +
+          `${isSplit && lives < 20 ? " Where lives disagree, more lives tell more." : ""}`
+        ).trim();
+      }
+      function saying() {
+        const { steps, tau } = rules.scale(me.map);
+        const length = `A life is ${count(steps)} steps, with advice in the first ${count(tau)}.`;
+        if (me.problem) return "No race: the building is not legal yet.";
+        if (!state.bet) return `${length} Bet first, then race.`;
+        if (isWanted) return `${length} The pages are being written: Grad, ${found?.iteration ?? 0} of ${rules.GRAD}.`;
+        if (scene.isLearning) return `${length} Racing: ${number((100 * done) / asked, 0)} % of ${ui.plural(asked / 10, "life").replace("lifes", "lives")}.`;
+        return length;
+      }
+      const rows = () => {
+        const goals = Object.fromEntries(robots().map((name) => [name, isDone() ? livesOf(name) : livesOf(name).filter(Number.isFinite)]));
+        return rules.cardRows(guides(), found?.drives ?? {}, isDone() ? goals : {}, state.lives);
+      };
+
+      function show() {
+        const { drives = {} } = found ?? {};
+        bars.set([...rules.GUIDES, "optimal"].map((name) => ({ name: NAMES[name], arm: armOf(name), value: drives[name] ?? null })));
+        told.textContent = isReady()
+          ? `${count(at.abstractStates(found.tasks).length)} abstract states: the robots see ${features().length} of 11 features.`
+          : isLarge() ? "A building of this size is solved when the race begins." : me.problem ? "" : `Grad climbs: ${found?.iteration ?? 0} of ${rules.GRAD}.`;
+        status.textContent = saying();
+        start.set(`Race: ${state.lives} ${state.lives === 1 ? "life" : "lives"} of ${ui.plural(robots().length, "robot")}`);
+        start.enable((mayRace() && !isDone()) || start.node === document.activeElement); // it keeps the focus
+        stop.node.hidden = !scene.isLearning && !isWanted;
+        const racing = guides().filter((name) => more(name).length);
+        dots.node.hidden = !racing.length;
+        dots.set(racing.map((name) => ({ name: NAMES[name], arm: armOf(name), more: more(name) })));
+        dots.describe(verdict() || "Goals of each life, beside the same life without advice");
+        card.hidden = !(isDone() && isReady());
+        if (!card.hidden) {
+          const { advice, strategy, lives } = state;
+          area.value = rules.cardText({ map: me.map, tasks: found.tasks, features: features(), advice, strategy, lives, rows: rows() });
+        }
+        me.view.lit(me.problem ? me.bad : null);
+        me.tools.show();
+      }
+
+      return function draw(_, changed) {
+        const isNew = ["text", "features", "advice"].some((name) => changed.has(name));
+        if (changed.has("text")) me.read();
+        if (isNew || changed.has("strategy")) {
+          scene.stop();
+          isWanted = false;
+          if (isBegun) scene.set({ goals: {} }); // they were of another race
+          isBegun = true;
+        }
+        if (isNew) prepare();
+        show();
+        scene.twin(() => ({ caption: `${status.textContent} ${told.textContent}`, head: rules.headOf(state.lives), rows: rows() }));
+        scene.close(verdict());
+      };
+    },
+  });
+})((globalThis.abstransfer ??= {}));

@@ -1,0 +1,104 @@
+// A project: its pages of advice, how they drive, how long a life is, and the text to
+// hand in.  See Python's `project` and `project_card`.
+
+(function projectRace(at) {
+  "use strict";
+
+  const SEED = 2015;
+  const GRAD = 300; // iterations
+  const GUIDES = ["nd", "prob", "grad", "eager", "rand"];
+  const half = (x) => Math.floor(x + 0.5);
+
+  // Steps of a life and of advice, in the paper's proportions, rounded.
+  function scale({ goals, nCells }) {
+    const long = (at.PAPER_STEPS / 151200) * goals.length * nCells * 8;
+    const unit = long >= 1e5 ? 1e4 : 100;
+    const steps = unit * half(long / unit);
+    return { steps, tau: unit * half(((3.5 / 30) * steps) / unit) };
+  }
+
+  const pages = {}; // written before, by building and features
+
+  // Yield { tasks, drives, guides, iteration }: how the pages of a building ("source",
+  // "target", "own") drive in a map, and the pages, as they are found.
+  function* preparing(map, features, advice) {
+    const tasks = at.navigationTasks(map, { features });
+    const found = { tasks, drives: {}, guides: {}, iteration: 0 };
+    const drive = (name, policy) => {
+      found.guides[name] = policy;
+      found.drives[name] = at.mean(at.evaluatePolicy(tasks, policy, tasks.rho));
+    };
+    drive("rand", at.randomPolicy(tasks.nAbstract));
+    drive("eager", at.uniformPolicy(tasks.possible));
+    found.drives.optimal = at.mean(at.optimalValues(tasks));
+    yield found;
+    const key = advice + features;
+    if (!pages[key]) {
+      const from = advice === "own" ? tasks : at.navigationTasks(at.parseMap(at.mapTexts[advice]), { features });
+      const { nd, prob } = at.inducedPolicies(from);
+      drive("nd", nd);
+      drive("prob", prob);
+      let grad;
+      for (const { iteration, policy } of at.absprobPi(from, { iterations: GRAD })) {
+        grad = policy;
+        found.iteration = iteration;
+        yield found;
+      }
+      if (advice !== "own") pages[key] = { nd, prob, grad };
+      drive("grad", grad);
+    } else for (const [name, policy] of Object.entries(pages[key])) drive(name, policy);
+    found.iteration = GRAD;
+    yield found;
+  }
+
+  // Jobs of lives [robot, life] for `learnAll`.
+  function jobsOf(map, { features, strategy }, guides, lives) {
+    const tasks = at.navigationTasks(map, { features, reward: "goal" });
+    const world = at.makeWorld(tasks);
+    const { steps, tau } = scale(map);
+    const made = {};
+    return lives.map(([robot, life]) => ({
+      world, steps, window: steps / 10, seed: SEED, key: [0, life], rule: { strategy, tau },
+      guide: robot === "none" ? null : (made[robot] ??= at.makeGuide(guides[robot], tasks.rho)),
+    }));
+  }
+
+  const total = (goals) => goals.reduce((sum, n) => sum + n, 0);
+  // By how much robots reached more than the one without advice: 0.1 is 10 %.
+  const gainOf = (goals, none) => total(goals) / total(none) - 1;
+
+  // The rows of the card: robot, drives, goals of a life, over none, each life.
+  function cardRows(chosen, drives, goals, lives) {
+    return ["none", ...chosen, "optimal"].map((name) => {
+      const mine = goals[name] ?? [];
+      const gain = half(1000 * (gainOf(mine, goals.none ?? []) + 1) - 1000) / 10;
+      const isGain = mine.length && name !== "none" && total(goals.none) > 0;
+      return [
+        name, name === "none" ? "" : (drives[name]?.toFixed(2) ?? ""),
+        mine.length ? `${half(total(mine) / mine.length)}` : "",
+        isGain ? `${gain < 0 ? "" : "+"}${gain.toFixed(1)} %` : "",
+        ...Array.from({ length: lives }, (_, i) => mine[i] ?? ""),
+      ];
+    });
+  }
+  const HEAD = ["robot", "drives", "goals of a life", "over none"];
+  const headOf = (lives) => [...HEAD, ...Array.from({ length: lives }, (_, i) => `life ${i + 1}`)];
+
+  function cardText({ map, tasks, features, advice, strategy, lives, rows }) {
+    const { steps, tau } = scale(map);
+    const seen = features.length === at.FEATURES.length ? "all" : features.join(", ") || "none";
+    const size = `${map.nCells} cells, ${map.nRooms} rooms, ${map.goals.length} goals`;
+    const settings = {
+      Building: `${size}, ${at.abstractStates(tasks).length} abstract states`,
+      "Advice from": advice, Features: seen, Strategy: strategy, Steps: steps, Tau: tau, Lives: lives, Seed: SEED,
+    };
+    const head = headOf(lives);
+    return [
+      "# Result card", "", ...Object.entries(settings).map(([name, value]) => `- ${name}: ${value}`), "",
+      ...[head, head.map(() => "---"), ...rows].map((row) => `| ${row.join(" | ")} |`), "",
+      "```text", map.text, "```", "",
+    ].join("\n");
+  }
+
+  Object.assign(at.project ??= {}, { GRAD, GUIDES, scale, preparing, jobsOf, gainOf, cardRows, headOf, cardText });
+})((globalThis.abstransfer ??= {}));
