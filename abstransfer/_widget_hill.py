@@ -102,25 +102,28 @@ class Hill(Scene):
             f"(worth {number(left, 2)}), {100 - n_left} at right and down "
             f"({number(right, 2)}): a climb does not know of the other top."
         )
-        if n_left in (0, 100):
-            caption = caption.split(": a climb does not")[0] + "."
         rows = [
             (t, *(number(x, 3) for x in self._after(t)), number(history[t], 3))
             for t in sorted({*_moments(LAST), self.t})
         ]
         land = Landscape(heights, {"left and up": left, "right and down": right})
-        first, whole = ([self._after(t) for t in _moments(n)] for n in (self.t, LAST))
+        first, whole = self._way(self.t), self._way(LAST)
+        earlier = [Hill(p=p, q=q, start=self.start)._way(LAST) for p, q in self.earlier]
+        values = [number(history[t], 2) for t in (0, self.t, LAST)]
+        alts = (
+            f"The first {self.t} iterations of a climb, from {values[0]} to {values[1]}.",
+            f"All {LAST} iterations of a climb, from {values[0]} to {values[2]}.",
+            f"A climb, and 100 starts by where they end: {n_left} left and up.",
+        )
         frames = [
-            hill_svg(land, f"The first {self.t} iterations of a climb.", [first]),
-            hill_svg(land, f"All {LAST} iterations of a climb.", [whole]),
-            hill_svg(
-                land,
-                f"A climb, and 100 starts by where they end: {n_left} left and up.",
-                [whole],
-                self.ends,
-            ),
+            hill_svg(land, alts[0], [first]),
+            hill_svg(land, alts[1], [*earlier, whole]),
+            hill_svg(land, alts[2], [*earlier, whole], self.ends),
         ]
         return Still(frames, caption, ("iteration", "p", "q", "value"), rows)
+
+    def _way(self, last: int) -> list[tuple[float, float]]:
+        return [self._after(t) for t in _moments(last)]
 
     def _after(self, t: int) -> tuple[float, float]:
         return tuple(self.climb(t).policy[:2, 0].tolist())

@@ -63,6 +63,8 @@ def test_the_still_picture_states_the_finding(start):
     climb = absprob_pi(HALL, RHO, np.ones((3, 2), bool), **options)
 
     assert len(set(still.frames)) == 3
+    both = Hill(start=start, earlier=[[0.2, 0.6]]).still()
+    assert [frame.count("<circle") for frame in both.frames] == [1, 2, 2]
     assert f"from {shown(climb.history[0])} to {shown(climb.history[-1])}" in (
         still.caption
     )
@@ -81,10 +83,11 @@ def test_land_slopes_climbs_and_ends_are_pythons(hill, start):
     heights, ways, sides, later = hill.page.evaluate(
         f"""([start, starts]) => {{
             const {{ heights, climb, sides, LAST }} = {LAND};
-            const ends = [...sides(start)];
+            const ends = [];
+            for (const _ of sides(start, ends));
             return [heights(start), starts.map((knobs) => climb(...knobs, start)),
-                ends.map(([, , isLeft]) => isLeft),
-                ends.map(([p, q]) => climb(p, q, start).at(-1).p > 0.5)];
+                ends.map(({{ isLeft }}) => isLeft),
+                ends.map(({{ p, q }}) => climb(p, q, start).at(-1).p > 0.5)];
         }}""",
         [start, starts],
     )

@@ -72,13 +72,10 @@
         const ring = drawn("circle", { cx: x(first.p), cy: y(first.q), r: 5, class: "ab-start" });
         return drawn("g", { class: dash && "ab-earlier" }, line, dots, ring);
       }
-      function arrow({ p, q, up }) {
-        const size = Math.hypot(...up);
-        if (!(size > 0)) return null;
-        const [dx, dy] = [(34 * up[0]) / size, (-34 * up[1]) / size];
-        const barb = (side) => `l${(-0.3 * dx + 0.2 * side * dy).toFixed(1)} ${(-0.3 * dy - 0.2 * side * dx).toFixed(1)}`;
-        const tip = `${(x(p) + dx).toFixed(1)} ${(y(q) + dy).toFixed(1)}`;
-        return drawn("path", { d: `M${where({ p, q })}L${tip}${barb(1)}M${tip}${barb(-1)}`, class: "ab-uphill" });
+      function arrow({ p, q, up: [right, upper] }) {
+        const turn = (Math.atan2(-upper, right) * 180) / Math.PI;
+        const place = `translate(${where({ p, q })}) rotate(${turn.toFixed(1)})`;
+        return (right || upper) && drawn("path", { d: "M0 0H34l-10-6M34 0l-10 6", transform: place, class: "ab-uphill" });
       }
 
       // ---- climbs, found once
@@ -87,7 +84,7 @@
       const earlier = () => [state.earlier].flat().filter((knobs) => knobs?.length === 2 && knobs.every((x) => x >= 0 && x <= 1));
       const wayOf = (p, q) => (ways[`${p} ${q} ${state.start}`] ??= land.climb(p, q, state.start));
       const way = () => wayOf(state.p, state.q);
-      const top = ({ p, q }) => (p > 0.5 && q > 0.5 ? "left and up" : p < 0.5 && q < 0.5 ? "right and down" : "in between");
+      const top = ({ p, q }) => (Math.min(p, q) > 0.5 ? "left and up" : Math.max(p, q) < 0.5 ? "right and down" : "in between");
 
       function drop(p, q) {
         [p, q] = [clip(p), clip(q)];
@@ -103,12 +100,13 @@
       });
       board.addEventListener("keydown", (event) => {
         const move = MOVES[event.key];
-        const [p, q] = cross ?? [state.p, state.q];
-        if (move) cross = [clip(p + STEP * move[0]), clip(q + STEP * move[1])];
-        else if (event.key === "Enter" || event.key === " ") drop(p, q);
+        const { p, q } = cross ?? state;
+        if (move) {
+          cross = { p: clip(p + STEP * move[0]), q: clip(q + STEP * move[1]) };
+          scene.say(`p ${number(cross.p, 2)}, q ${number(cross.q, 2)}: worth ${number(land.value(cross.p, cross.q, state.start), 2)}.`);
+        } else if (event.key === "Enter" || event.key === " ") drop(p, q);
         else return;
         event.preventDefault();
-        if (move) scene.say(`p ${number(cross[0], 2)}, q ${number(cross[1], 2)}: worth ${number(land.value(...cross, state.start), 2)}.`);
         scene.redraw();
       });
       board.addEventListener("focusout", () => ((cross = null), scene.redraw()));
@@ -117,12 +115,6 @@
         const { done } = at.runFor(work, 10);
         timer = done ? null : setTimeout(follow, 0, work);
         if (done) scene.redraw();
-      }
-      function* survey() {
-        for (const each of land.sides(state.start)) {
-          ends.push(each);
-          yield;
-        }
       }
       scene.onLeave(() => clearTimeout(timer));
 
@@ -154,7 +146,7 @@
         if (!state.bet || state.t < land.LAST || timer) return "";
         const last = way().at(-1);
         const settled = way().findLastIndex(({ value }) => Math.abs(value - last.value) > 0.1) + 1;
-        const nLeft = ends.filter(([, , isLeft]) => isLeft).length;
+        const nLeft = ends.filter(({ isLeft }) => isLeft).length;
         const mine = [...earlier(), [state.p, state.q]].map(([p, q]) => top(wayOf(p, q).at(-1)));
         const own = mine.length > 1 ? ` Of your ${mine.length} climbs, ${mine.filter((name) => name === mine.at(-1)).length} end at ${mine.at(-1)}.` : "";
         return (
@@ -180,20 +172,21 @@
         if (changed.has("start")) {
           ends = [];
           clearTimeout(timer);
-          timer = setTimeout(follow, 0, survey());
+          timer = setTimeout(follow, 0, land.sides(state.start, ends));
           drawLand();
         }
         const sofar = way().slice(0, Math.round(state.t) + 1);
         const here = sofar.at(-1);
-        const marks = [true, false].map((side) => drawn("path", {
-          d: ends.filter(([, , isLeft]) => isLeft === side).map((each) => `M${where({ p: each[0], q: each[1] })}${side ? "m-4 3h8l-4-7z" : "m-4-3h8l-4 7z"}`).join(""),
-          class: side ? "ab-leftside" : "ab-rightside",
-        }));
-        layers.starts.replaceChildren(...(state.sides ? marks : []));
+        const marks = (side, shape, kind) => {
+          const d = ends.filter(({ isLeft }) => isLeft === side).map((knobs) => `M${where(knobs)}${shape}`).join("");
+          return drawn("path", { d, class: kind });
+        };
+        layers.starts.replaceChildren(...(state.sides
+          ? [marks(true, "m-4 3h8l-4-7z", "ab-leftside"), marks(false, "m-4-3h8l-4 7z", "ab-rightside")] : []));
         layers.climbs.replaceChildren(...earlier().map(([p, q], i) => drawClimb(wayOf(p, q), DASHES[i % DASHES.length])), drawClimb(sofar));
         layers.over.replaceChildren(...[
           arrow(here), ui.marker("grad", x(here.p), y(here.q), 6),
-          cross && drawn("path", { d: `M${where({ p: cross[0], q: cross[1] })}m-9 0h18m-9-9v18`, class: "ab-cross" }),
+          cross && drawn("path", { d: `M${where(cross)}m-9 0h18m-9-9v18`, class: "ab-cross" }),
         ].filter(Boolean));
         sides.hidden = !state.bet;
         clear.node.hidden = !earlier().length;

@@ -47,11 +47,12 @@
     return way;
   }
 
-  // Starts in the middle of 10 x 10 squares: [p, q, whether left and up is the end].
-  function* sides(start) {
+  // Starts in the middle of 10 x 10 squares, and whether left and up is the end; a yield each.
+  function* sides(start, found) {
     for (let i = 0; i < 100; i++) {
       const [p, q] = [((i % 10) + 0.5) / 10, (Math.floor(i / 10) + 0.5) / 10];
-      yield [p, q, climb(p, q, start, EARLY)[EARLY].p > 0.5];
+      found.push({ p, q, isLeft: climb(p, q, start, EARLY)[EARLY].p > 0.5 });
+      yield;
     }
   }
 
