@@ -80,7 +80,7 @@ def test_boxes_and_their_pages_are_those_of_python(ballot):
     assert ballot.problems == []
 
 
-def test_what_pages_are_worth_is_exact(ballot):
+def test_what_pages_are_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
     bet(ballot)
     scene = Ballot()
     for beta in (0.25, 0.5, 2.75, 8.0, np.inf):
@@ -95,24 +95,6 @@ def test_what_pages_are_worth_is_exact(ballot):
             ballot.root.inner_text()
         )
 
-
-def test_the_closing_sentence_names_the_best_page(ballot):
-    bet(ballot, "Prob", "yes, between ND and Prob")
-    scene = Ballot()
-    places = [*BETAS, np.inf]
-
-    assert ballot.closing.count("right.") == 2
-    for where in ("source", "target"):
-        values = [scene.driving(where, beta) for beta in places]
-        best = f"β = {places[int(np.argmax(values))]:.2f} with {max(values):.1f} a cell"
-        assert best.replace("-", "−") in ballot.closing
-        for name, beta in PAGES.items():
-            value = f"{name} {scene.driving(where, beta):.1f}"
-            assert value.replace("-", "−") in ballot.closing
-
-
-def test_the_papers_numbers_are_hollow_marks(ballot):
-    bet(ballot)
     marks = ballot.page.evaluate(
         "[0, 1].map(i => ['source', 'target'].map(name =>"
         " [abstransfer.PAPER[name].nd, abstransfer.PAPER[name].prob][i]))"
@@ -127,10 +109,7 @@ def test_the_papers_numbers_are_hollow_marks(ballot):
     assert hollow == 4
 
 
-# By mouse and by keyboard
-
-
-def test_a_bet_comes_first(ballot):
+def test_a_bet_comes_first_and_the_closing_names_the_best_page(ballot):
     assert ballot.closing == ""
     assert not ballot.root.locator(".ab-chart").is_visible()
     assert ballot.rows()[WHOLE[0]][1:] == ["–"] * 4
@@ -138,6 +117,21 @@ def test_a_bet_comes_first(ballot):
     assert "“Winner”; it was “Prob”" in ballot.closing
     assert "it was “yes, between ND and Prob”" in ballot.closing
     assert ballot.root.locator(".ab-chart").is_visible()
+    bet(ballot, "Prob", "yes, between ND and Prob")
+    scene = Ballot()
+    places = [*BETAS, np.inf]
+
+    assert ballot.closing.count("right.") == 2
+    for where in ("source", "target"):
+        values = [scene.driving(where, beta) for beta in places]
+        best = f"β = {places[int(np.argmax(values))]:.2f} with {max(values):.1f} a cell"
+        assert best.replace("-", "−") in ballot.closing
+        for name, beta in PAGES.items():
+            value = f"{name} {scene.driving(where, beta):.1f}"
+            assert value.replace("-", "−") in ballot.closing
+
+
+# By mouse and by keyboard
 
 
 def test_by_mouse(ballot):
@@ -236,7 +230,7 @@ def test_a_moment_has_an_address_and_wrong_ones_do_no_harm(show):  # noqa: F811
     assert other.problems == []
 
 
-def test_it_is_there_at_once(ballot):
+def test_it_is_there_at_once_and_starts_as_python_does(ballot):
     seconds = ballot.page.evaluate(
         """async () => {
             const start = performance.now();
@@ -250,6 +244,7 @@ def test_it_is_there_at_once(ballot):
         }"""
     )
     assert seconds < 0.5
+    assert ballot.page.evaluate("abstransfer.scenes.ballot.state") == Ballot.defaults()
 
 
 def test_a_tiny_and_a_huge_building(show):  # noqa: F811
@@ -295,10 +290,6 @@ def test_it_is_accessible(show, color_scheme):  # noqa: F811
 
 
 # In Python
-
-
-def test_the_browser_starts_as_python_does(ballot):
-    assert ballot.page.evaluate("abstransfer.scenes.ballot.state") == Ballot.defaults()
 
 
 def test_infinity_has_a_place_on_the_slider():

@@ -182,7 +182,7 @@
         const values = curves.flatMap(({ points }) => points.map(([, v]) => v));
         [y.min, y.max] = values.length ? [Math.min(...values) - 2, 0.9 * Math.max(...values)] : [-100, 0]; // room for words
         const marks = [{ x: LAST + 1, label: "winner" }];
-        if (isDone()) marks.push({ x: Math.min(best(0), LAST + 1), label: `best: ${number(best(0), 2)}` });
+        if (isDone()) marks.push({ x: Math.min(best(0), LAST + 1), label: "best" });
         chart.set({ curves, marks, cursor: state.beta > LAST ? LAST + 1 : state.beta });
       }
       function closing() {
@@ -212,7 +212,11 @@
 
       return function draw(_, changed) {
         if (changed.has("map") || changed.has("source")) begin();
-        if (!election) return (words.textContent = `Counting the votes of ${plural(goals().length, "task")} …`);
+        if (!election) {
+          words.textContent = `Counting the votes of ${plural(goals().length, "task")} …`;
+          found.hidden = true;
+          return scene.close(false);
+        }
         shown = sides[0].each[state.task];
         view.map(sides[0].map, { aim: shown.goal[0] });
         if (!timer && !isDone()) start(driveAll());
