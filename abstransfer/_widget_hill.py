@@ -109,10 +109,10 @@ class Hill(Scene):
         land = Landscape(heights, {"left and up": left, "right and down": right})
         first, whole = self._way(self.t), self._way(LAST)
         earlier = [Hill(p=p, q=q, start=self.start)._way(LAST) for p, q in self.earlier]
-        values = [number(history[t], 2) for t in (0, self.t, LAST)]
+        low, now, high = (number(history[t], 2) for t in (0, self.t, LAST))
         alts = (
-            f"The first {self.t} iterations of a climb, from {values[0]} to {values[1]}.",
-            f"All {LAST} iterations of a climb, from {values[0]} to {values[2]}.",
+            f"The first {self.t} iterations of a climb, from {low} to {now}.",
+            f"All {LAST} iterations of a climb, from {low} to {high}.",
             f"A climb, and 100 starts by where they end: {n_left} left and up.",
         )
         frames = [

@@ -112,24 +112,30 @@ def test_every_sweep_is_pythons(show):  # noqa: F811
     assert scene.problems == []
 
 
-@pytest.mark.parametrize(("cell", "k"), [(78, 5), (4, 0), (134, 30), (16, 3)])
-def test_a_cell_shows_the_backup_of_the_next_sweep(show, cell, k):  # noqa: F811
-    scene = opened(show, k=k)
-    scene.click_cell(cell) if cell != 16 else scene.slider("Sweep").fill("3")
-    if cell == 16:  # the goal: it is the task already, so it is chosen
-        scene.click_cell(16)
-    terms = scene.root.locator(".ab-term b").all_inner_texts()
-    widget = Ripple()
+def test_a_cell_shows_the_backup_of_the_next_sweep(show):  # noqa: F811
+    scene, widget = opened(show), Ripple()
     mdp = widget.tasks.mdp
-    q = solvers.action_values(mdp, widget.sweeps[k])[cell]
-
-    wanted = [mdp.reward[cell] + 0.99 * q.max(), mdp.reward[cell], 0.99, q.max()]
-    wanted = wanted[:2] if mdp.terminal[cell] else wanted
-    shown = [number(term) for term in terms]
-    np.testing.assert_allclose(shown, wanted, atol=5e-5)
-    if not mdp.terminal[cell]:
+    for cell, k in ((78, 5), (4, 0), (134, 30), (62, 12)):
+        scene.slider("Sweep").fill(str(k))
+        scene.click_cell(cell)
+        q = solvers.action_values(mdp, widget.sweeps[k])[cell]
+        wanted = [-1 + 0.99 * q.max(), -1, 0.99, q.max()]
         assert abs(widget.sweeps[k + 1][cell] - wanted[0]) < 1e-12
+        np.testing.assert_allclose(backup(scene), wanted, atol=5e-5)
+        moves = mdp.next_state[cell, q.argmax()] != cell
+        share = mdp.prob[cell, q.argmax()][moves]
+        cells = mdp.next_state[cell, q.argmax()][moves]
+        ahead = f"to {share @ widget.sweeps[k][cells] / 0.9:.4f} on average"
+        assert ahead.replace("-", "\u2212") in scene.root.inner_text()
+
+    scene.click_cell(16)  # the goal of the task: nothing comes after it
+    assert backup(scene) == [0, 0]
     assert scene.problems == []
+
+
+def backup(scene):
+    """The numbers of the formula."""
+    return [number(term) for term in scene.root.locator(".ab-term b").all_inner_texts()]
 
 
 def test_bets_arrows_and_the_closing_sentence(show):  # noqa: F811
@@ -147,7 +153,7 @@ def test_bets_arrows_and_the_closing_sentence(show):  # noqa: F811
     assert "You bet on \u201cabout 75\u201d: right." in scene.closing
     assert "in most\u201d; it was \u201cin hardly any\u201d" in scene.closing
     assert f"after {last(widget)} sweeps" in scene.closing
-    assert f"in {(n_best > 1).sum()} of 134 cells" in scene.closing
+    assert f"best in {(n_best > 1).sum()} of 134 cells" in scene.closing
     assert "at most 23 steps, 77 sweeps, 64 of 1,474 cells." in scene.closing
     framed = scene.root.locator(".ab-tile.ab-lit").evaluate_all(
         "all => all.map(tile => Number(tile.dataset.cell))"

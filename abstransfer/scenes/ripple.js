@@ -132,9 +132,14 @@
             { symbol: `max Σ T V${low(k)}`, value: number(worth, 4), word: "best of what my neighbours guess" },
           ]),
         ]);
+        const { success, nWays, nActions } = tasks;
+        const v = sweeps[k][cell];
+        const outcome = nWays[nActions * cell + action]
+          ? `It leads on with probability ${number(success, 2)}, to ${number((worth - (1 - success) * v) / success, 4)} on average; else the cell's own ${number(v, 4)} stays.`
+          : "It finds nothing to go to here.";
         own.textContent = action === null
           ? `The chosen cell, ${place(map, cell)}, is the goal: nothing comes after it.`
-          : `The chosen cell, ${place(map, cell)}, in sweep ${k + 1}: its best action is “${at.microscope.nameOf(action)}”.`;
+          : `The chosen cell, ${place(map, cell)}, in sweep ${k + 1}: its best action is “${at.microscope.nameOf(action)}”. ${outcome}`;
       }
       function showChart() {
         chart.node.hidden = !state.bet;
@@ -159,8 +164,8 @@
         const all = n > 1 ? ` In all ${n} tasks: at most ${farthest} steps, ${most} sweeps, ${count(ties)} of ${count(cells)} cells.` : "";
         return (
           `${results.join(" ")} News reaches the farthest cell, ${ui.plural(far, "step")} away, in sweep ${far}; every cell knows its ` +
-          `value to within a hundredth after ${ui.plural(wave.end, "sweep")}, with moves that succeed with probability ${number(state.success, 2)}. ` +
-          `There is more than one best action in ${nTies} of ${count(map.nCells - 1)} cells.${all}`
+          `value to within a hundredth after ${ui.plural(wave.end, "sweep")} (a move succeeds with probability ${number(state.success, 2)}). ` +
+          `More than one action is best in ${nTies} of ${count(map.nCells - 1)} cells.${all}`
         ).trim();
       }
       function twin() {
