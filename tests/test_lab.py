@@ -16,7 +16,7 @@ from conftest import unavailable
 from nbformat.v4 import new_code_cell, new_notebook
 from playwright.sync_api import expect
 
-FIRST = "from abstransfer import widgets\n\nscene = widgets.{}()\nscene"
+CELL = "from abstransfer import widgets\n\n{0} = widgets.{0}()\n{0}"
 SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to push
     "Microscope": ("Step", "t", 110, 7),
     "Race": ("Step", "t", 38, 7),
@@ -30,14 +30,20 @@ SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to p
     "Project": ("Lives of each", "lives", 3, 7),
     "Filling": ("Lives", "n", 20, 7),
 }
+SCENES = [*SLIDERS, "Studio"]
 
 
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory):
-    """A JupyterLab of its own: its folder, its address and its token."""
+    """The address of a JupyterLab of its own, with one notebook of all scenes."""
     if not find_spec("jupyterlab"):
         unavailable("JupyterLab is not installed; run: pip install -e '.[test]'")
     folder = tmp_path_factory.mktemp("lab")
+    cells = [new_code_cell(CELL.format(name)) for name in SCENES]
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    cells.append(new_code_cell("1"))
+    notebook = new_notebook(cells=cells, metadata={"kernelspec": kernel})
+    nbformat.write(notebook, folder / "scenes.ipynb")
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -52,6 +58,10 @@ def lab(tmp_path_factory):
     }
     homes = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR")
     env = {**os.environ, **{home: str(folder / home.lower()) for home in homes}}
+    settings = folder / "jupyter_config_dir/lab/user-settings/@jupyterlab"
+    settings /= "notebook-extension/tracker.jupyterlab-settings"
+    settings.parent.mkdir(parents=True)
+    settings.write_text('{"windowingMode": "none"}')  # cells out of view exist too
     tool = Path(sys.executable).with_name("jupyter-lab")
     command = [tool, *(f"--{name}={value}" for name, value in options.items())]
     address = f"http://127.0.0.1:{port}"
@@ -59,7 +69,7 @@ def lab(tmp_path_factory):
         server = subprocess.Popen(command, env=env, stdout=log, stderr=log)
         try:
             wait_for(f"{address}/api", server, folder / "log")
-            yield folder, f"{address}/lab/tree/{{}}.ipynb?reset&token={token}"
+            yield f"{address}/lab/tree/scenes.ipynb?token={token}"
         finally:
             server.terminate()
             server.wait(10)
@@ -77,16 +87,9 @@ def wait_for(url, server, log):
     pytest.fail("JupyterLab does not answer")
 
 
-@pytest.fixture
-def page(lab, chromium, name):
-    """A tab in which a scene was run; nothing may fail or be fetched there."""
-    folder, address = lab
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    notebook = new_notebook(
-        cells=[new_code_cell(source) for source in (FIRST.format(name), "1")],
-        metadata={"kernelspec": kernel},
-    )
-    nbformat.write(notebook, folder / f"{name}.ipynb")
+@pytest.fixture(scope="module")
+def page(lab, chromium):
+    """A tab in which the notebook was run; nothing may fail or be fetched there."""
     context = chromium.new_context(viewport={"width": 1400, "height": 1200})
     elsewhere, problems = [], []
     context.route(
@@ -97,32 +100,26 @@ def page(lab, chromium, name):
     )
     page = context.new_page()
     page.on("pageerror", lambda error: problems.append(str(error)))
-    page.goto(address.format(name))
+    page.goto(lab)
     page.locator(".jp-CodeCell").last.wait_for(timeout=60_000)
     page.get_by_text("| Idle").wait_for(timeout=60_000)
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    page.locator(".abstransfer-scene.ab-live").wait_for(timeout=60_000)
+    page.get_by_text("| Idle").wait_for(timeout=60_000)
+    for number in range(len(SCENES)):
+        scene_of(page, number).wait_for(timeout=60_000)
     yield page
     assert problems == []
     assert elsewhere == []
     assert "#" not in page.url
-    stop_kernels(page)
     context.close()
 
 
-def stop_kernels(page):
-    """End the kernel: a dozen of them would fill the memory."""
-    page.evaluate(
-        """async () => {
-            const token = JSON.parse(
-                document.getElementById("jupyter-config-data").textContent).token;
-            const ask = (path, method) => fetch(`/api/sessions${path}`, {
-                method, headers: { Authorization: `token ${token}` } });
-            for (const { id } of await (await ask("", "GET")).json()) {
-                await ask(`/${id}`, "DELETE");
-            }
-        }"""
+def scene_of(page, number):
+    """Return the scene of a cell."""
+    page.locator(".jp-CodeCell").nth(number).scroll_into_view_if_needed()
+    return (
+        page.locator(".jp-CodeCell").nth(number).locator(".abstransfer-scene.ab-live")
     )
 
 
@@ -141,7 +138,7 @@ def run_last_cell(page, code):
 @pytest.mark.parametrize("name", SLIDERS)
 def test_the_browser_and_python_share_the_state_of_a_scene(page, name):
     label, trait, moved, pushed = SLIDERS[name]
-    slider = page.get_by_role("slider", name=label)
+    slider = scene_of(page, SCENES.index(name)).get_by_role("slider", name=label)
 
     slider.fill(str(moved))
     page.wait_for_timeout(500)  # the change is on its way
@@ -150,20 +147,29 @@ def test_the_browser_and_python_share_the_state_of_a_scene(page, name):
     slider.press("ArrowRight")
     expect(slider).to_have_value(str(moved))
     page.wait_for_timeout(500)
-    assert run_last_cell(page, f"print('said', scene.{trait})") == f"said {moved}"
+    assert run_last_cell(page, f"print('said', {name}.{trait})") == f"said {moved}"
 
-    assert run_last_cell(page, f"scene.{trait} = {pushed}; print('said so')")
+    assert run_last_cell(page, f"{name}.{trait} = {pushed}; print('said so')")
     expect(slider).to_have_value(str(pushed))
 
 
-@pytest.mark.parametrize("name", ["Studio"])
-def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page, name):
-    scene = page.locator(".abstransfer-scene")
+def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page):
+    scene = scene_of(page, SCENES.index("Studio"))
 
     scene.get_by_role("button", name="The target").click()
     page.wait_for_timeout(500)
-    said = run_last_cell(page, "print('said', repr(scene.map))")
+    said = run_last_cell(page, "print('said', repr(Studio.map))")
     assert said == "said Map(18 x 30 cells, 35 rooms, 35 goals)"
 
-    assert run_last_cell(page, "scene.map = 'source'; print('said so')")
+    assert run_last_cell(page, "Studio.map = 'source'; print('said so')")
     expect(scene.get_by_text("135 cells").first).to_be_visible()
+
+
+def test_scenes_of_one_notebook_do_not_share_names(page):
+    """Each brings the scripts anew; a label must still find its own control."""
+    ids = page.locator(".abstransfer-scene [id]").evaluate_all(
+        "all => all.map(e => e.id)"
+    )
+
+    assert ids
+    assert len(ids) == len(set(ids))

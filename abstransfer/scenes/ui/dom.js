@@ -21,8 +21,8 @@
   const drawn = (tag, attributes, ...children) =>
     filled(document.createElementNS(SVG, tag), attributes, children);
 
-  let lastId = 0;
-  const newId = () => `ab-${++lastId}`;
+  // Counted on the shared object: in a notebook each scene brings these scripts anew.
+  const newId = () => `ab-${(at.lastId = (at.lastId ?? 0) + 1)}`;
 
   // ---- text
 
