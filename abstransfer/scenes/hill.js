@@ -134,8 +134,7 @@
         scene.timeline("t", { label: "Iteration", speeds: [1, 4, 15] }),
       );
 
-      function tell(here) {
-        const [first] = way();
+      function tell([first], here) {
         words.textContent =
           `Iteration ${state.t}: p = ${number(here.p, 2)}, q = ${number(here.q, 2)}. This page is worth ${number(here.value, 2)}; ` +
           `the first was worth ${number(first.value, 2)}. Left and up for sure: ${number(land.value(1, 1, state.start), 2)}; right and down: ${number(land.value(0, 0, state.start), 2)}.`;
@@ -175,7 +174,8 @@
           timer = setTimeout(follow, 0, land.sides(state.start, ends));
           drawLand();
         }
-        const sofar = way().slice(0, Math.round(state.t) + 1);
+        // No farther than is shown: a drag asks for many climbs.
+        const sofar = land.climb(state.p, state.q, state.start, Math.round(state.t));
         const here = sofar.at(-1);
         const marks = (side, shape, kind) => {
           const d = ends.filter(({ isLeft }) => isLeft === side).map((knobs) => `M${where(knobs)}${shape}`).join("");
@@ -190,7 +190,7 @@
         ].filter(Boolean));
         sides.hidden = !state.bet;
         clear.node.hidden = !earlier().length;
-        tell(here);
+        tell(sofar, here);
         if (changed.has("t") || changed.has("p") || changed.has("q")) scene.say(words.textContent);
         scene.twin(twin);
         scene.close(closing());
