@@ -76,7 +76,9 @@ bench: .venv/.book
 student: .venv/.book
 	$(BIN)/python scripts/student_edition.py build/student
 
+# Trusted, or JupyterLab would not show the stored pictures.
 lab: .venv/.lab
+	$(BIN)/jupyter-trust book/*.ipynb
 	$(BIN)/jupyter-lab book
 
 clean:
