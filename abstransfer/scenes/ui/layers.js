@@ -5,7 +5,8 @@
   "use strict";
 
   const ui = (at.ui ??= {});
-  const KINDS = ["", "M0 3H6", "M3 0V6", "M0 6L6 0", "M0 0L6 6", "M3 1V5M1 3H5"];
+  const KINDS = ["", "M0 3H6", "M3 0V6", "M0 6L6 0", "M0 0L6 6", "M3 1V5M1 3H5",
+    "M0 3H6M3 0V6", "M1 1L5 5M5 1L1 5", "M0 2H6M0 4H6", "M2 0V6M4 0V6"];
   const HUES = 10;
 
   ui.addLayers = function (view) {
