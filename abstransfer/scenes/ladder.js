@@ -48,23 +48,18 @@
       tool: ["wall", "door", "room", "corridor", "goal"], success: [0.5, 1], actions: Object.keys(ACTIONS),
       near: [0, 20], almost_near: [0, 20],
     },
-    local: ["order", "gap"],
+    local: ["order", "gap", "target"], // the target is Python's to change
 
     build(scene) {
       const { ui, studio } = at;
       const { make, number, list } = ui;
       const name = (row) => ui.armStyle(row).name;
-      let [found, first, timer, isAsked, target] = [null, null, null, false, null];
+      let [found, first, target] = [null, null, null];
 
-      const me = studio.makeEditor(scene, { label: "The source", onMap: () => (isAsked = false) });
+      const me = studio.makeEditor(scene, { label: "The source", begin });
       const ladders = at.ladder.makeLadders({ label: "Table 1 as two ladders", isCalm: () => scene.calm });
       const [legend, status] = [1, 2].map(() => make("p", {}));
-      const solve = ui.button("Large building: solve it", () => {
-        isAsked = true;
-        begin();
-        scene.redraw();
-      }, { primary: true });
-      const within = (cells) => `within ${ui.plural(cells, "step")}`;
+      const steps = (n) => ui.plural(n, "step");
       scene.add(
         scene.bet("order", {
           question: "Bet first: in the large building, which page drives best, which next, which last?",
@@ -79,38 +74,31 @@
             make("p", { class: "ab-ylabel" }, "Mean value of a cell: minus the discounted steps to the goal. −100: it never arrives."),
             ladders.node, legend, status),
           make("div", { class: "ab-body" },
-            make("p", {}, "The source, where the pages are written. Edit it:"), me.tools.bar, me.view.node, me.legal, solve.node,
+            make("p", {}, "The source, where the pages are written. Edit it:"), me.tools.bar, me.view.node, me.legal, me.solve.node,
             me.tools.files),
         ),
         scene.row(
           scene.slider("success", { label: "A move succeeds with probability", step: 0.05, format: (p) => number(p, 2) }),
-          scene.slider("near", { label: "The goal is near", format: within }),
-          scene.slider("almost_near", { label: "The goal is almost near", format: within }),
+          scene.slider("near", { label: "The goal is near up to", format: steps }),
+          scene.slider("almost_near", { label: "The goal is almost near up to", format: steps }),
         ),
         scene.choice("actions", { label: "What an action says", options: ACTIONS }),
       );
 
       // ---- solving, in slices: the rungs first, then Grad climbs
 
-      const isPaused = () => me.map.nCells > studio.MANY && !isAsked;
       const isDone = () => found?.iteration === GRAD;
       function begin() {
-        clearTimeout(timer);
         found = null;
-        if (me.problem || isPaused()) return;
         const { success, actions, near, almost_near: almostNear } = scene.state;
-        const job = solving([me.map, target], { success, actions, near, almostNear });
-        const slice = () => {
-          const { last, done } = at.runFor(job, 15);
+        const job = !me.problem && !me.isLarge() && solving([me.map, target], { success, actions, near, almostNear });
+        me.work(job, (last, isOver) => {
           found = last ?? found;
-          if (found.grad) found.target.grad = at.mean(at.evaluatePolicy(found.targetTasks, found.grad, found.targetTasks.rho));
-          if (!done) timer = setTimeout(slice);
-          else if (isPapers()) first ??= found;
-          scene.redraw();
-        };
-        timer = setTimeout(slice);
+          const { targetTasks: tasks, grad } = found;
+          if (grad) found.target.grad = at.mean(at.evaluatePolicy(tasks, grad, tasks.rho));
+          if (isOver && isPapers()) first ??= found;
+        });
       }
-      scene.onLeave(() => clearTimeout(timer));
 
       // ---- what is shown
 
@@ -124,7 +112,7 @@
 
       function show() {
         ladders.set(SIDES.map((side) => ({
-          title: side === "source" ? "source" : "target",
+          title: side,
           hint: side === "target" && !isOpen() && ["ND?", "Prob?", "Grad?"],
           isFaint: !isPapers(),
           rungs: at.ROWS.map((row) => ({
@@ -137,12 +125,10 @@
           : "Filled marks: here. Hollow and grey: the paper's numbers; they are not of this source, or not of this reading.";
         status.textContent =
           me.problem ? "No rungs: the source is not legal yet."
-          : isPaused() ? "A building of this size takes a while."
+          : me.isLarge() ? "A building of this size takes a while."
           : isDone() ? "Grad is at the top of its climb."
           : `Grad climbs: ${found?.iteration ?? 0} of ${GRAD} steps.`;
-        solve.node.hidden = Boolean(me.problem) || !isPaused();
-        me.view.lit(me.problem ? me.bad : null);
-        me.tools.show();
+        me.show();
       }
 
       // How much more than the best driver the best page pays: 1 is as much again.
@@ -167,13 +153,6 @@
         const turn = before.join() === order.join() ? "The order of the pages is as it was" : `The order of the pages was ${list(before.map(name))}, and is ${list(order.map(name))}`;
         return `${now} ${turn}; ${name(most)} moved most, by ${by > 0 ? "+" : ""}${number(by)}.`;
       }
-      function legal(text) {
-        try {
-          return at.parseMap(text);
-        } catch {
-          return at.parseMap(at.mapTexts.target); // an address may hold anything
-        }
-      }
       const printed = (x, digits) => (Number.isFinite(x) ? number(x, digits) : "–");
       const twin = () => ({
         caption: `${status.textContent} ${legend.textContent} Mean value of a cell; source: ${me.map.height} × ${me.map.width} cells.`,
@@ -185,7 +164,7 @@
 
       return function draw(state, changed) {
         if (changed.has("text")) me.read();
-        if (changed.has("target")) target = legal(state.target);
+        if (changed.has("target")) target = at.parseMap(state.target);
         if (["text", "target", "success", "actions", "near", "almost_near"].some((key) => changed.has(key))) begin();
         show();
         scene.twin(twin);

@@ -16,6 +16,7 @@ ${ROOMS}+-----+-----+-----+`;
   const WAYS = { hard: "hard: obey to the letter", soft: "soft: ever less often" };
   const BETS = { nd: "ND's", prob: "Prob's", grad: "Grad's", all: "all of them", none: "none" };
   const PAGES = ["nd", "prob", "grad"];
+  const lived = (n) => (n === 1 ? "1 life" : `${n} lives`);
   const armOf = (name) => (name === "eager" ? "uniform_available" : name);
 
   at.scene("project", {
@@ -34,10 +35,10 @@ ${ROOMS}+-----+-----+-----+`;
       const { ui, studio, project: rules } = at;
       const { make, number, count, list } = ui;
       const { state } = scene;
-      let [found, timer, isAsked, isWanted, isBegun] = [null, null, false, false, false];
+      let [found, isWanted, isBegun] = [null, false, false];
       let [asked, done] = [1, 0]; // tenths of lives
 
-      const me = studio.makeEditor(scene, { buildings: { "The school": SCHOOL }, onMap: () => (isAsked = false) });
+      const me = studio.makeEditor(scene, { buildings: { "The school": SCHOOL } });
       // Ticks of a list in the state; what an address holds is put in order.
       const listed = (name, all) => {
         const now = state[name];
@@ -77,29 +78,21 @@ ${ROOMS}+-----+-----+-----+`;
           scene.choice("advice", { label: "The pages are written in", options: FROM }),
           scene.choice("strategy", { label: "Advice", options: WAYS }),
         ),
-        scene.row(ticks("guides", "Robots, beside the one without advice", rules.GUIDES, (name) => NAMES[name]),
+        scene.row(ticks("guides", "Robots, beside the one without advice; eager does whatever can be done", rules.GUIDES, (name) => NAMES[name]),
           scene.slider("lives", { label: "Lives of each" })),
         scene.row(start.node, stop.node), status, dots.node, card,
       );
-      scene.onLeave(() => clearTimeout(timer));
 
       // ---- before the race: the pages, in slices
 
-      const isLarge = () => me.map.nCells > studio.MANY && !isAsked;
       const isReady = () => found?.iteration === rules.GRAD && found.drives.grad !== undefined;
       function prepare() {
-        clearTimeout(timer);
         found = null;
-        if (me.problem || isLarge()) return;
-        const job = rules.preparing(me.map, features(), state.advice);
-        const slice = () => {
-          const { last, done: isOver } = at.runFor(job, 15);
+        const job = !me.problem && !me.isLarge() && rules.preparing(me.map, features(), state.advice);
+        me.work(job, (last, isOver) => {
           found = last ?? found;
-          timer = isOver ? null : setTimeout(slice);
           if (isOver && isWanted) learn();
-          scene.redraw();
-        };
-        timer = setTimeout(slice);
+        });
       }
 
       // ---- the race
@@ -114,9 +107,9 @@ ${ROOMS}+-----+-----+-----+`;
       function race() {
         if (!mayRace()) return;
         if (isDone()) return scene.say("All these lives are lived.");
-        isWanted = isAsked = true;
+        isWanted = me.ask();
         if (isReady()) learn();
-        else if (!timer) prepare();
+        else if (!me.isWorking()) prepare();
         scene.redraw();
       }
       function learn() {
@@ -162,7 +155,7 @@ ${ROOMS}+-----+-----+-----+`;
         const mean = none.reduce((a, b) => a + b, 0) / lives;
         return (
           `${isBet ? scene.betResult("bet", truth) : ""} A life without advice reaches ${count(mean)} goals. Of ` +
-          `${ui.plural(lives, "life").replace("lifes", "lives")} with the same luck, ${list(words)}.` +
+          `${lived(lives)} with the same luck, ${list(words)}.` +
           `${isSplit && lives < 20 ? " Where lives disagree, more lives tell more." : ""}`
         ).trim();
       }
@@ -172,7 +165,7 @@ ${ROOMS}+-----+-----+-----+`;
         if (me.problem) return "No race: the building is not legal yet.";
         if (!state.bet) return `${length} Bet first, then race.`;
         if (isWanted) return `${length} The pages are being written: Grad, ${found?.iteration ?? 0} of ${rules.GRAD}.`;
-        if (scene.isLearning) return `${length} Racing: ${number((100 * done) / asked, 0)} % of ${ui.plural(asked / 10, "life").replace("lifes", "lives")}.`;
+        if (scene.isLearning) return `${length} Racing: ${number((100 * done) / asked, 0)} % of ${lived(asked / 10)}.`;
         return length;
       }
       const rows = () => {
@@ -185,9 +178,9 @@ ${ROOMS}+-----+-----+-----+`;
         bars.set([...rules.GUIDES, "optimal"].map((name) => ({ name: NAMES[name], arm: armOf(name), value: drives[name] ?? null })));
         told.textContent = isReady()
           ? `${count(at.abstractStates(found.tasks).length)} abstract states: the robots see ${features().length} of 11 features.`
-          : isLarge() ? "A building of this size is solved when the race begins." : me.problem ? "" : `Grad climbs: ${found?.iteration ?? 0} of ${rules.GRAD}.`;
+          : me.isLarge() ? "A building of this size is solved when the race begins." : me.problem ? "" : `Grad climbs: ${found?.iteration ?? 0} of ${rules.GRAD}.`;
         status.textContent = saying();
-        start.set(`Race: ${state.lives} ${state.lives === 1 ? "life" : "lives"} of ${ui.plural(robots().length, "robot")}`);
+        start.set(`Race: ${lived(state.lives)} of ${ui.plural(robots().length, "robot")}`);
         start.enable((mayRace() && !isDone()) || start.node === document.activeElement); // it keeps the focus
         stop.node.hidden = !scene.isLearning && !isWanted;
         const racing = guides().filter((name) => more(name).length);
@@ -199,8 +192,7 @@ ${ROOMS}+-----+-----+-----+`;
           const { advice, strategy, lives } = state;
           area.value = rules.cardText({ map: me.map, tasks: found.tasks, features: features(), advice, strategy, lives, rows: rows() });
         }
-        me.view.lit(me.problem ? me.bad : null);
-        me.tools.show();
+        me.show();
       }
 
       return function draw(_, changed) {

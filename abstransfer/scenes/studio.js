@@ -26,10 +26,10 @@
       const { make, number } = ui;
       const rows = Object.fromEntries(at.ROWS.map((row) => [row, ui.armStyle(row).name]));
       let [tasks, pointed] = [null, null];
-      let [found, first, isAsked, timer] = [null, null, false, null];
+      let [found, first] = [null, null];
 
       const me = rules.makeEditor(scene, {
-        walk, onMap,
+        walk, onMap, begin,
         onPoint: (cell) => {
           pointed = cell;
           showCell();
@@ -41,11 +41,6 @@
       const bars = ui.barChart({
         label: "Table 1: mean value of a cell", format: (x) => number(x, 2), low: -100, high: 0,
       });
-      const solve = ui.button("Large building: solve it", () => {
-        isAsked = true;
-        begin();
-        scene.redraw();
-      }, { primary: true });
       const head = ["action a", "next cell s′", "chance", "reward r"];
       const columns = make("div", {},
         make("div", { class: "ab-body" }, view.node, legal, counts),
@@ -57,7 +52,7 @@
         tools.bar, columns,
         scene.choice("show", { label: "In the cells, for the task with the lit goal", options: SHOWN }),
         make("p", {}, "Table 1, rebuilt for this building: mean value of a cell. Rings: the paper's numbers."),
-        solve.node, bars.node,
+        me.solve.node, bars.node,
         scene.bet("bet", {
           question: "Bet first, then edit: which row moves most when the building changes?", options: rows,
         }),
@@ -70,26 +65,15 @@
           scene.limit("task", [0, me.map.goals.length - 1]);
           scene.limit("start", [0, me.map.nCells - 1]);
         }
-        isAsked = false;
       }
 
-      // Solve in slices, so that the page stays free; a new building ends it.
-      const isPaused = () => me.map.nCells > rules.MANY && !isAsked;
       function begin() {
-        clearTimeout(timer);
         found = null;
-        if (me.problem || isPaused()) return;
-        const job = rules.solving(me.map);
-        const slice = () => {
-          const { last, done } = at.runFor(job, 15);
+        me.work(!me.problem && !me.isLarge() && rules.solving(me.map), (last) => {
           found = last ?? found;
           if (isDone()) first ??= { ...found, text: me.map.text };
-          if (!done) timer = setTimeout(slice);
-          scene.redraw();
-        };
-        timer = setTimeout(slice);
+        });
       }
-      scene.onLeave(() => clearTimeout(timer));
 
       // ---- the robot and the cell it is in, or that is pointed at
 
@@ -109,11 +93,11 @@
       // ---- what lies over the cells, and below the building
 
       function layers({ show, task }) {
-        const { states, values, arrows } = rules.overlay(tasks, found, isPaused() ? "" : show);
+        const { states, values, arrows } = rules.overlay(tasks, found, me.isLarge() ? "" : show);
         view.classes(states);
         view.values(values, { low: -100, high: 0 });
         view.arrows(arrows);
-        view.lit(me.problem ? me.bad : [me.map.goals[task]]);
+        me.show([me.map.goals[task]]);
       }
 
       function tell() {
@@ -126,7 +110,6 @@
           `${ui.list(parts.filter(Boolean))}; ${ui.count(cells * goals)} states. `,
           name && !me.problem ? make("strong", {}, `✓ The counts of the paper's ${name}.`) : "",
         );
-        solve.node.hidden = Boolean(me.problem) || !isPaused();
         bars.set(at.ROWS.map((row) => ({
           name: rows[row], arm: row, value: found?.row[row] ?? null, mark: marks[row], lit: row === scene.state.show,
           note: row === "grad" && found && !isDone() && `climbing: ${found.iteration} of ${rules.GRAD}`,
@@ -186,7 +169,6 @@
         }
         layers(state);
         tell();
-        tools.show();
         scene.twin(twin);
         scene.close(closing(state));
       };

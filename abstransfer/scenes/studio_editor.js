@@ -5,11 +5,13 @@
   "use strict";
 
   const MANY = 1500; // cells: from here on, solving waits to be asked for
+  const SLICE = 15; // milliseconds of work between two pictures
 
   // `onMap(problem)` hears of another drawing: `map` is it or, where it draws none, the
-  // last one.  `buildings` are more to start from, by name; `walk` moves a robot.
+  // last one.  `begin` solves it: a button calls it where that waits to be asked for.
+  // `buildings` are more to start from, by name; `walk` moves a robot.
   function makeEditor(scene, options = {}) {
-    const { buildings, walk, onMap, ...view } = options;
+    const { buildings, walk, onMap, begin, ...view } = options;
     const { ui, studio } = at;
     const legal = ui.make("p", {});
     const me = { map: null, text: null, walked: null, problem: "", bad: [], legal, read, walk };
@@ -19,6 +21,37 @@
       describe: (cell) => studio.describe(me.map, cell, me.walked?.cell), ...view,
     });
     tools.listen(me.view);
+    let [timer, isAsked] = [null, false];
+    const solve = (me.solve = ui.button("Large building: solve it", () => {
+      me.ask();
+      begin();
+      scene.redraw();
+    }, { primary: true }));
+
+    me.ask = () => (isAsked = true);
+    me.isLarge = () => me.map.nCells > MANY && !isAsked;
+    me.isWorking = () => timer !== null;
+    // Work off an iterator in slices, so that the page stays free; the last one ends.
+    // `onSlice(last, isOver)` hears what it yielded last, undefined if nothing.
+    me.work = (job, onSlice) => {
+      clearTimeout(timer);
+      timer = null;
+      if (!job) return;
+      const slice = () => {
+        const { last, done } = at.runFor(job, SLICE);
+        timer = done ? null : setTimeout(slice);
+        onSlice(last, done);
+        scene.redraw();
+      };
+      timer = setTimeout(slice);
+    };
+    scene.onLeave(() => clearTimeout(timer));
+    // Renew what changes with the state; `cells` are lit unless some are wrong.
+    me.show = (cells = null) => {
+      me.view.lit(me.problem ? me.bad : cells);
+      solve.node.hidden = Boolean(me.problem) || !me.isLarge();
+      tools.show();
+    };
 
     // Take a text; keep the last building where it draws none.
     function read() {
@@ -43,10 +76,11 @@
       legal.textContent = me.problem ? `Not legal yet: ${me.problem}.` : "A legal building.";
       if (me.problem) scene.say(legal.textContent);
       tools.write(text);
+      isAsked = false;
       onMap?.(me.problem);
     }
     return me;
   }
 
-  Object.assign(at.studio ??= {}, { MANY, makeEditor });
+  Object.assign(at.studio ??= {}, { makeEditor });
 })((globalThis.abstransfer ??= {}));
