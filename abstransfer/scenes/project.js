@@ -139,24 +139,20 @@ ${ROOMS}+-----+-----+-----+`;
         if (!isDone() || !guides().length || !state.bet) return "";
         const none = livesOf("none");
         const { lives } = state;
-        let isSplit = false;
-        const words = guides().map((name) => {
-          const gain = rules.gainOf(livesOf(name), none);
-          const isHurt = gain < 0;
-          const n = more(name).filter((m) => (isHurt ? m < 0 : m > 0)).length;
-          isSplit ||= n < lives;
+        const found = guides().map((name) => rules.judge(name, livesOf(name), none));
+        const words = found.map(({ name, gain, isHurt, n }) => {
           const share = Number.isFinite(gain) ? ` (${isHurt ? "" : "+"}${number(100 * gain)} %)` : "";
           return `${NAMES[name]} ${isHurt ? "hurt" : "helped"} in ${n}${share}`;
         });
-        const better = PAGES.filter((name) => rules.gainOf(livesOf(name), none) > 0);
-        const truth = better.length === 3 ? "all" : !better.length ? "none" : better.length === 1 ? better[0] : list(better.map((name) => BETS[name]));
+        const raced = found.filter(({ name }) => PAGES.includes(name));
+        const better = raced.filter(({ gain }) => gain > 0).map(({ name }) => name);
+        const truth = { 0: "none", 1: better[0], 3: "all" }[better.length] ?? list(better.map((name) => BETS[name]));
         const isSchool = ["text", "features", "advice", "strategy"].every((key) => `${state[key]}` === `${scene.spec.state[key]}`);
-        const isBet = isSchool && PAGES.every((name) => guides().includes(name));
         const mean = none.reduce((a, b) => a + b, 0) / lives;
         return (
-          `${isBet ? scene.betResult("bet", truth) : ""} A life without advice reaches ${count(mean)} goals. Of ` +
-          `${lived(lives)} with the same luck, ${list(words)}.` +
-          `${isSplit && lives < 20 ? " Where lives disagree, more lives tell more." : ""}`
+          `${isSchool && raced.length === 3 ? scene.betResult("bet", truth) : ""} A life without advice reaches ` +
+          `${count(mean)} goals. Of ${lived(lives)} with the same luck, ${list(words)}.` +
+          `${found.some(({ n }) => n < lives) && lives < 20 ? " Where lives disagree, more lives tell more." : ""}`
         ).trim();
       }
       function saying() {
@@ -169,8 +165,8 @@ ${ROOMS}+-----+-----+-----+`;
         return length;
       }
       const rows = () => {
-        const goals = Object.fromEntries(robots().map((name) => [name, isDone() ? livesOf(name) : livesOf(name).filter(Number.isFinite)]));
-        return rules.cardRows(guides(), found?.drives ?? {}, isDone() ? goals : {}, state.lives);
+        const goals = isDone() ? Object.fromEntries(robots().map((name) => [name, livesOf(name)])) : {};
+        return rules.cardRows(guides(), found?.drives ?? {}, goals, state.lives);
       };
 
       function show() {

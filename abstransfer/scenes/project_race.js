@@ -67,6 +67,13 @@
   // By how much robots reached more than the one without advice: 0.1 is 10 %.
   const gainOf = (goals, none) => total(goals) / total(none) - 1;
 
+  // What a race says of a robot: its gain, and in how many lives it was so.
+  function judge(name, goals, none) {
+    const gain = gainOf(goals, none);
+    const isHurt = gain < 0;
+    return { name, gain, isHurt, n: goals.filter((g, i) => (isHurt ? g < none[i] : g > none[i])).length };
+  }
+
   // The rows of the card: robot, drives, goals of a life, over none, each life.
   function cardRows(chosen, drives, goals, lives) {
     return ["none", ...chosen, "optimal"].map((name) => {
@@ -100,5 +107,5 @@
     ].join("\n");
   }
 
-  Object.assign(at.project ??= {}, { GRAD, GUIDES, scale, preparing, jobsOf, gainOf, cardRows, headOf, cardText });
+  Object.assign(at.project ??= {}, { GRAD, GUIDES, scale, preparing, jobsOf, judge, cardRows, headOf, cardText });
 })((globalThis.abstransfer ??= {}));
