@@ -212,6 +212,8 @@ def unseen_share(rho: np.ndarray, voted: np.ndarray) -> float:
     voted : ndarray of int
         Abstract states of the source states that vote.
 
+    Examples
+    --------
     >>> unseen_share(np.array([0, 1, 1, 2]), np.array([0, 1]))
     0.25
     """

@@ -55,6 +55,8 @@ def race(
     n_runs, seed
         Run i of every robot draws from ``SeedSequence(seed, spawn_key=(0, i))``.
 
+    Examples
+    --------
     >>> from abstransfer import navigation_tasks, parse_map, uniform_policy
     >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"), reward="goal")
     >>> go = {"eager": uniform_policy(tasks.possible)}

@@ -49,6 +49,19 @@ def test_a_page_has_one_first_heading(html, name):
 
 
 @pytest.mark.parametrize("name", PAGES)
+def test_tables_and_examples_are_drawn_as_such(html, name):
+    path = html / f"{name}.html"
+    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").article
+    for tag in article.find_all(["pre", "code"]):
+        tag.decompose()
+    text = article.get_text()
+
+    assert not re.findall(r".*(?:\|\s*:?---|>>> ).*", text), (
+        "Markdown or Python as text"
+    )
+
+
+@pytest.mark.parametrize("name", PAGES)
 def test_every_picture_is_described(html, name):
     for picture in soup(html / f"{name}.html").find("article").find_all("img"):
         alt = picture.get("alt", "")
