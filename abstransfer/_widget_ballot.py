@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 import traitlets
 
+from ._abstract_counts import _optimal
 from ._cells import count
 from ._stills import building_svg
 from ._stills_ballot import box_svg
@@ -17,7 +18,6 @@ from ._widget_dial import BETAS, LAST, STEP, _driving, _policy
 from .maps import Map
 from .navigation import LABELS, navigation_tasks
 from .policies import break_ties, count_votes
-from .solvers import optimal_actions, optimal_values
 from .table1 import PAPER
 
 WINNER = LAST + STEP  # how the browser writes an infinite beta
@@ -58,8 +58,7 @@ class Ballot(Scene):
     task : int
         Which goal of the source is shown, counted from 0.
     beta : float, 0 to 8, or infinity
-        The page is proportional to p ** beta: ND at 0, Prob at 1, and at infinity
-        the winner takes all.
+        The power of the shares: ND at 0, Prob at 1, the winner at infinity.
 
     Examples
     --------
@@ -124,8 +123,8 @@ class Ballot(Scene):
             f"{number(known['Prob'])}, with ND {number(known['ND'])}, if the winner "
             f"takes all {number(known['Winner'])}."
         )
-        values = [value for points in lines.values() for _, value in points]
-        low, high = np.floor(min(values) / 10) * 10, np.ceil(max(values) / 10) * 10
+        values = np.array([value for points in lines.values() for _, value in points])
+        low, high = 10 * np.floor(values.min() / 10), 10 * np.ceil(values.max() / 10)
         panel = Panel("mean value of a cell", lines, low, high + 10, beta)
         frames = [
             self._building(),
@@ -158,5 +157,4 @@ def _paper(name: str) -> tuple[str, str]:
 @lru_cache(maxsize=8)
 def _votes(source: Map) -> np.ndarray:
     tasks = navigation_tasks(source)
-    best = break_ties(optimal_actions(tasks.mdp, optimal_values(tasks.mdp)))
-    return count_votes(best, tasks.rho, tasks.n_abstract)
+    return count_votes(break_ties(_optimal(source)), tasks.rho, tasks.n_abstract)

@@ -4,10 +4,7 @@
 (function ballot(at) {
   "use strict";
 
-  const { A, LAST, STEP, WINNER, BETAS, pageOf, betaText } = at.ballot;
-  const PAGES = { nd: [0, "ND"], prob: [1, "Prob"], winner: [WINNER, "Winner"] };
-  const MORE = { between: "yes, between ND and Prob", beyond: "yes, between Prob and the winner", no: "no" };
-  const SIDES = [["small", "source", "dial-hard"], ["large", "map", "dial-soft"]];
+  const { A, STEP, WINNER, BETAS, pageOf, betaText } = at.ballot;
 
   at.scene("ballot", {
     title: "The ballot box",
@@ -40,14 +37,7 @@
       });
       const cast = ui.barChart({ label: "Votes in the box", format: (x) => number(x), low: 0 });
       const chances = ui.barChart({ label: "Probabilities on the page", format: (x) => number(x, 3), low: 0, high: 1 });
-      const now = make("p", {});
-      const y = { label: "Mean value of a cell if the whole page is obeyed", format: (v) => number(v, 0) };
-      const chart = ui.lineChart({
-        label: "What the whole page is worth, by beta", height: 260, y,
-        x: { label: "β (ND at 0, Prob at 1)", format: (beta) => number(beta, 0), min: 0, max: LAST + 1 },
-      });
-      const note = make("p", { class: "ab-note" }, "Hollow, in colour, at 0 and 1: the paper's ND and Prob.");
-      const found = make("div", { class: "ab-scene" }, now, chart.node, note);
+      const whole = at.ballot.wholePage(scene);
       const column = (...nodes) => make("div", { class: "ab-scene" }, nodes);
       const goals = () => sides?.[0].map.goals ?? [];
       scene.add(
@@ -62,19 +52,14 @@
             make("p", {}, "So the page of advice says, with what probability:"), chances.node,
           ),
         ),
-        scene.bet("bet", {
-          question: "Bet first: which page drives best in the small building, where the votes were cast?",
-          options: Object.fromEntries(Object.entries(PAGES).map(([key, [, name]]) => [key, name])),
-        }),
-        scene.bet("bet_more", { question: "And is there a page that beats all three and needs nothing but the same votes?", options: MORE }),
-        found,
+        whole.bets, whole.node,
       );
       scene.onLeave(() => clearTimeout(timer));
 
       // ---- the election, and drives along the dial, in slices
 
       function begin() {
-        sides = SIDES.map(([, of]) => ({ map: at.parseMap(state[of]), each: [] }));
+        sides = ["source", "map"].map((of) => ({ map: at.parseMap(state[of]), each: [] }));
         scene.limit("task", [0, goals().length - 1]);
         view.map(sides[0].map, { aim: goals()[state.task] });
         [election, drives, shown] = [null, {}, null];
@@ -102,6 +87,7 @@
         yield* driveAll();
       }
       // Where the reader stands comes first, then the three pages.
+      const isDone = () => election && next() === undefined;
       const next = () => [state.beta, 0, 1, ...BETAS.slice(-1), ...BETAS].find((beta) => !drives[beta]);
       function* driveAll() {
         for (let beta; (beta = next()) !== undefined; ) {
@@ -156,57 +142,13 @@
         chances.set(bars(chance(state.beta)));
       }
 
-      // ---- the whole page
-
-      const hasBet = () => state.bet && state.bet_more;
-      const isDone = () => election && next() === undefined;
-      const value = (beta, side, digits = 1) => (drives[beta] ? number(drives[beta][side], digits) : "…");
-      const best = (side) => BETAS.reduce((a, b) => (drives[b][side] > drives[a][side] ? b : a));
-
-      function showPage() {
-        found.hidden = !hasBet();
-        if (found.hidden) return;
-        now.textContent =
-          `At β = ${betaText(state.beta)} the whole page is worth ${value(state.beta, 0, 2)} a cell in the small building, ` +
-          `${value(state.beta, 1, 2)} in the large one.`;
-        const known = BETAS.filter((beta) => beta <= LAST && drives[beta]);
-        const curves = SIDES.flatMap(([name, , arm], side) => [
-          { arm, points: known.map((beta) => [beta, drives[beta][side]]) },
-          { name, arm, points: drives[WINNER] ? [[LAST + 1, drives[WINNER][side]]] : [] },
-        ]);
-        const isPapers = SIDES.every(([, of]) => state[of] === scene.spec.state[of]);
-        note.hidden = !isPapers;
-        if (isPapers) for (const paper of [at.PAPER.source, at.PAPER.target]) {
-          for (const [key, beta] of [["nd", 0], ["prob", 1]]) curves.push({ arm: `${key}-soft`, points: [[beta, paper[key]]] });
-        }
-        const values = curves.flatMap(({ points }) => points.map(([, v]) => v));
-        [y.min, y.max] = values.length ? [Math.min(...values) - 2, 0.9 * Math.max(...values)] : [-100, 0]; // room for words
-        const marks = [{ x: LAST + 1, label: "winner" }];
-        if (isDone()) marks.push({ x: Math.min(best(0), LAST + 1), label: "best" });
-        chart.set({ curves, marks, cursor: state.beta > LAST ? LAST + 1 : state.beta });
-      }
-      function closing() {
-        if (!hasBet() || !isDone()) return "";
-        const worth = (beta) => drives[beta][0];
-        const top = Object.keys(PAGES).reduce((a, b) => (worth(PAGES[b][0]) > worth(PAGES[a][0]) ? b : a));
-        const isMore = worth(best(0)) > worth(PAGES[top][0]) + 1e-9;
-        const side = (i) =>
-          `β = ${betaText(best(i))} with ${value(best(i), i)} a cell (${Object.values(PAGES).map(([beta, name]) => `${name} ${value(beta, i)}`).join(", ")})`;
-        return (
-          `${scene.betResult("bet", top)} ${scene.betResult("bet_more", isMore ? (best(0) < 1 ? "between" : "beyond") : "no")} ` +
-          `Of ${BETAS.length} places of the dial, best in the small building is ${side(0)}; in the large one ${side(1)}.`
-        ).trim();
-      }
       function twin() {
         const places = [state.beta, 0, 1, WINNER];
         const rows = places.map(chance);
-        const whole = SIDES.map(([name], side) => [
-          `the whole page, ${name} building`, "", ...places.map((beta) => (hasBet() ? value(beta, side, 8) : "–")),
-        ]);
         return {
           caption: `${words.textContent} Probabilities in this box, and mean values of the whole page.`,
           head: ["action", "votes", `β = ${betaText(state.beta)}`, "ND", "Prob", "winner"],
-          rows: [...actions().map((a) => [sight(a), number(row(election.votes, state.z)[a], 4), ...rows.map((p) => number(p[a], 6))]), ...whole],
+          rows: [...actions().map((a) => [sight(a), number(row(election.votes, state.z)[a], 4), ...rows.map((p) => number(p[a], 6))]), ...whole.rows(places, drives)],
         };
       }
 
@@ -214,18 +156,18 @@
         if (changed.has("map") || changed.has("source")) begin();
         if (!election) {
           words.textContent = `Counting the votes of ${plural(goals().length, "task")} …`;
-          found.hidden = true;
+          whole.node.hidden = true;
           return scene.close(false);
         }
         shown = sides[0].each[state.task];
         view.map(sides[0].map, { aim: shown.goal[0] });
         if (!timer && !isDone()) start(driveAll());
         showBox();
-        showPage();
-        if (changed.has("beta") && hasBet()) scene.say(now.textContent);
+        const sentence = whole.show(state, drives, isDone());
+        if (changed.has("beta") && sentence) scene.say(sentence);
         else if (changed.has("z") || changed.has("task")) scene.say(words.textContent);
         scene.twin(twin);
-        scene.close(closing());
+        scene.close(isDone() && whole.closing(state, drives));
       };
     },
   });

@@ -6,10 +6,6 @@
 
   const ALL = 2 ** 11 - 1; // of a set of features, as of an abstract state, a bit each
   const CHOICES = { "All 11": ALL, "The 8 sights": 255, "No sights": ALL - 255, None: 0 };
-  const BETS = { // with the numbers they stand for
-    bet: { few: [90, "about 90"], some: [500, "about 500"], all: [2048, "nearly all"] },
-    bet_new: { third: [1 / 3, "one in three"], tenth: [0.1, "one in ten"], hundredth: [0.01, "one in a hundred"] },
-  };
   const SIDES = [["task", "source", "small"], ["away", "map", "large"]];
 
   at.scene("paint", {
@@ -23,7 +19,7 @@
 
     build(scene) {
       const { ui, paint } = at;
-      const { make, number, count, plural } = ui;
+      const { make, plural } = ui;
       let counted = {}; // { home, away, solved } as far as they are counted
       let [full, seen] = [null, null]; // counts with all features; looks with those kept
       let pointed = null; // the abstract state of the cell under the pointer
@@ -55,14 +51,7 @@
       });
       const words = make("p", {});
       const presets = Object.entries(CHOICES).map(([text, features]) => ui.button(text, () => scene.set({ features })).node);
-      const bars = {
-        counts: ui.barChart({ label: "Abstract states that occur", format: count, low: 0 }),
-        shares: ui.barChart({ label: "Shares of states", format: (x) => `${number(x)} %`, low: 0, high: 100 }),
-      };
-      const found = make("div", { class: "ab-scene" }, bars.counts.node, bars.shares.node, make("p", { class: "ab-note" }, "A ring: with all 11 features."));
-      const bet = (name, question) => scene.bet(name, {
-        question, options: Object.fromEntries(Object.entries(BETS[name]).map(([key, [, text]]) => [key, text])),
-      });
+      const found = paint.findings(scene);
       scene.add(
         make("div", { class: "ab-columns ab-pair" }, sides.map(({ node }) => node)),
         words,
@@ -72,9 +61,7 @@
           make("div", { class: "ab-questions" }, questions.map(({ node }) => node)),
         ),
         scene.row(...presets),
-        bet("bet", "Bet first: how many of 2,048 combinations of answers occur in the small building?"),
-        bet("bet_new", "And of all states of the large building, how many look like nothing in the small one?"),
-        found,
+        found.bets, found.node,
       );
       scene.onLeave(() => clearTimeout(timer));
 
@@ -166,56 +153,17 @@
         return `in the ${side.size} building ${plural(side.lit.length, "cell")} of this task${all}`;
       }
 
-      // ---- what is found
-
-      const NAMES = {
-        source: "abstract states in the small building", target: "abstract states in the large one",
-        unseen: "of the large one's states look new", torn: "of the small one's states: in a conflict (no action suits all that look so)",
-        right: "of them: one action for each abstract state is right",
-      };
       const now = (state) => (full && hasBet(state) ? paint.counts(counted.home, counted.away, state.features) : null);
-
-      function showFound(state, counts) {
-        found.hidden = !counts;
-        if (!counts) return;
-        const mark = (key) => (state.features === ALL ? undefined : full[key]);
-        const row = (key) => ({ name: NAMES[key], value: counts[key], mark: mark(key) });
-        bars.counts.set(["source", "target"].map(row));
-        bars.shares.set(["unseen", "torn", "right"].map(row));
-        found.lastChild.hidden = state.features === ALL;
-      }
-      const nearest = (name, x) =>
-        Object.keys(BETS[name]).reduce((best, key) => {
-          const far = (k) => Math.abs(Math.log(BETS[name][k][0] / Math.max(x, 1e-9)));
-          return far(key) < far(best) ? key : best;
-        });
-      function closing(state, counts) {
-        if (!counts) return "";
-        const bits = questions.filter((_, f) => (state.features >> f) & 1).length;
-        const bets = `${scene.betResult("bet", nearest("bet", full.source))} ${scene.betResult("bet_new", nearest("bet_new", full.unseen / 100))}`;
-        const before = state.features === ALL ? "" :
-          ` With all 11 it was ${full.source}, ${full.target}, ${number(full.unseen)} %, ${number(full.torn, 0)} % and ${number(full.right, 0)} %.`;
-        return (
-          `${bets} With ${plural(bits, "feature")}, ${counts.source} of ${count(2 ** bits)} abstract states occur in the small ` +
-          `building and ${counts.target} in the large one, where ${number(counts.unseen)} % of the states look new. At home ` +
-          `${number(counts.torn, 0)} % of the states lie in a conflict; one action for each abstract state is right in ` +
-          `${number(counts.right, 0)} %.${before}`
-        ).trim();
-      }
       function twin(state, counts) {
-        const digits = { source: 0, target: 0 };
-        const shown = (key, of) => (of ? number(of[key], digits[key] ?? 4) + (key in digits ? "" : " %") : "–");
         const z = pointed ?? state.z;
+        const of = (side) => [
+          [`cells lit in the ${side.size} building`, side.lit.length, ""],
+          [`states of all its ${side.map.goals.length} tasks`, z < 0 || !seen ? "–" : total(side, z), ""],
+        ];
         return {
           caption: `Lit: ${z < 0 ? "nothing" : ui.sights(masked(z))}.`,
           head: ["number", "with the features ticked", "with all 11"],
-          rows: [
-            ...sides.flatMap((side) => [
-              [`cells lit in the ${side.size} building`, side.lit.length, ""],
-              [`states of all its tasks`.replace("its", `its ${side.map.goals.length}`), z < 0 || !seen ? "–" : total(side, z), ""],
-            ]),
-            ...Object.keys(NAMES).map((key) => [NAMES[key], shown(key, counts), shown(key, counts && full)]),
-          ],
+          rows: [...sides.flatMap(of), ...found.rows(counts, full)],
         };
       }
 
@@ -232,9 +180,9 @@
         if (has("task", "away", "features")) sides.forEach(({ view }) => view.rename());
         if (has("task", "away", "features", "z")) scene.say(words.textContent);
         const counts = now(state);
-        showFound(state, counts);
+        found.show(state, counts, full);
         scene.twin(() => twin(state, counts));
-        scene.close(closing(state, counts));
+        scene.close(found.closing(state, counts, full));
       };
     },
   });

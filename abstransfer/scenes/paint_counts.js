@@ -63,5 +63,5 @@
     return { look, small, large };
   }
 
-  at.paint = { tally, counts, looks };
+  Object.assign((at.paint ??= {}), { tally, counts, looks });
 })((globalThis.abstransfer ??= {}));
