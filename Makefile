@@ -1,6 +1,7 @@
 # make book   build the book into build/_build/html
 # make test   check everything: style, package, notebooks, built pages
 # make lab    open the notebooks in JupyterLab
+# make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
 # make bench  measure the learning loops beside other people's (a minute or two)
 # make clean  remove what these made
@@ -13,12 +14,12 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 PYTEST := $(BIN)/python -m pytest --quiet -n 2
 
-.PHONY: book test lab student bench clean env system
+.PHONY: book test lab pdf student bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test lab student bench clean env system:
+book test lab pdf student bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -72,6 +73,12 @@ endif
 bench: .venv/.book
 	$(PIP) --editable ".[peers]"
 	$(BIN)/python benchmarks/run.py
+
+# First look for the browser: the book takes a while to build.
+pdf: .venv/.book
+	@$(BIN)/python scripts/pdf.py --check
+	@$(MAKE) --no-print-directory book
+	@$(BIN)/python scripts/pdf.py
 
 student: .venv/.book
 	$(BIN)/python scripts/student_edition.py build/student
