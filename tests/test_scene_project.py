@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
@@ -9,10 +10,15 @@ from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import FEATURES
 from abstransfer.project import GUIDES, Setup, drives, run, scale
 from abstransfer.project_card import card_text, read_setup, verify
+from abstransfer.stats import paired_difference
 from abstransfer.widgets import Project
 
 SCHOOL = parse_map(Project().text)
 NAMES = {"nd": "ND", "prob": "Prob", "grad": "Grad", "eager": "eager"}
+
+
+def half_up(x):
+    return int(np.floor(x + 0.5))
 
 
 def project(open_page, query="", width=1440, color_scheme="light", **options):
@@ -84,7 +90,11 @@ def test_a_race_in_the_school_is_pythons_to_the_last_goal(open_scene):  # noqa: 
     better = [n for n in ("nd", "prob", "grad") if goals[n].sum() > goals["none"].sum()]
     assert better == [], "or the sentence of the bet is another one"
     assert "You bet on “all of them”; it was “none”." in tab.closing
-    assert tab.root.locator(".ab-chart path.ab-marker").count() == 4 * 6
+    chart = tab.root.locator(".ab-chart").text_content().replace("\u2212", "-")
+    for name in NAMES:
+        more = paired_difference(goals[name], goals["none"], rng=0)
+        mean, low, high = (f"{half_up(x):+,}" for x in more)
+        assert f"{NAMES[name]}{mean} [{low}, {high}]" in chart
     assert tab.problems == []
 
 

@@ -57,8 +57,9 @@ ${ROOMS}+-----+-----+-----+`;
       const guides = () => listed("guides", rules.GUIDES);
 
       const bars = ui.barChart({ label: "How each page drives here", format: (x) => number(x, 1), low: -100, high: 0 });
-      const dots = rules.makeDots("Goals of each life, beside the same life without advice");
+      const dots = at.filling.rows("Goals of each life, beside the same life without advice");
       const [status, told] = [1, 2].map(() => make("p", {}));
+      const key = make("p", { class: "ab-ylabel" }, "Dots: lives. Box: their quarters. Diamond: their mean, with a 95 % interval.");
       const start = ui.button("", () => race(), { primary: true });
       const stop = ui.button("Stop", () => (scene.stop(), (isWanted = false), scene.redraw()));
       const area = make("textarea", { rows: 14, readonly: true, spellcheck: "false", "aria-label": "The result card as text" });
@@ -80,7 +81,7 @@ ${ROOMS}+-----+-----+-----+`;
         ),
         scene.row(ticks("guides", "Robots, beside the one without advice; eager does whatever can be done", rules.GUIDES, (name) => NAMES[name]),
           scene.slider("lives", { label: "Lives of each" })),
-        scene.row(start.node, stop.node), status, dots.node, card,
+        scene.row(start.node, stop.node), status, make("div", {}, key, dots.node), card,
       );
 
       // ---- before the race: the pages, in slices
@@ -180,8 +181,8 @@ ${ROOMS}+-----+-----+-----+`;
         start.enable((mayRace() && !isDone()) || start.node === document.activeElement); // it keeps the focus
         stop.node.hidden = !scene.isLearning && !isWanted;
         const racing = guides().filter((name) => more(name).length);
-        dots.node.hidden = !racing.length;
-        dots.set(racing.map((name) => ({ name: NAMES[name], arm: armOf(name), more: more(name) })));
+        key.parentNode.hidden = !racing.length;
+        dots.set(rules.picture(racing.map((name) => ({ name: NAMES[name], arm: armOf(name), lives: more(name) }))));
         dots.describe(verdict() || "Goals of each life, beside the same life without advice");
         card.hidden = !(isDone() && isReady());
         if (!card.hidden) {

@@ -74,6 +74,25 @@
     return { name, gain, isHurt, n: goals.filter((g, i) => (isHurt ? g < none[i] : g > none[i])).length };
   }
 
+  // Goals more than the same life without advice, [{ name, arm, lives }], as `filling.rows`
+  // draws them: a dot per life, their box, the mean with its interval.
+  function picture(robots) {
+    const { interval: around, quantile } = at.filling;
+    const signed = (n) => `${n > 0 ? "+" : ""}${at.ui.count(n)}`;
+    const items = robots.map((robot) => {
+      const sorted = [...robot.lives].sort((a, b) => a - b);
+      const interval = around(robot.lives);
+      const [mean, low, high] = interval.map(signed);
+      const box = [0, 0.25, 0.5, 0.75, 1].map((share) => quantile(sorted, share));
+      return { ...robot, box, interval, text: sorted.length > 1 ? `${mean} [${low}, ${high}]` : mean };
+    });
+    const all = [0, 1, ...robots.flatMap(({ lives }) => lives)];
+    const [low, high] = [Math.min(...all), Math.max(...all)];
+    const margin = (high - low) / 12;
+    const axis = "goals more than without advice, same luck";
+    return { items, from: low - margin, to: high + margin, zero: 0, axis, format: signed };
+  }
+
   // The rows of the card: robot, drives, goals of a life, over none, each life.
   function cardRows(chosen, drives, goals, lives) {
     return ["none", ...chosen, "optimal"].map((name) => {
@@ -107,5 +126,5 @@
     ].join("\n");
   }
 
-  Object.assign(at.project ??= {}, { GRAD, GUIDES, scale, preparing, jobsOf, judge, cardRows, headOf, cardText });
+  Object.assign(at.project ??= {}, { GRAD, GUIDES, scale, preparing, jobsOf, judge, picture, cardRows, headOf, cardText });
 })((globalThis.abstransfer ??= {}));
