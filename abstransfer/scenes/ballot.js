@@ -30,7 +30,7 @@
         ui.button(text, () => scene.set({ z: election.boxes[place() + by] })),
       );
       const view = ui.building({
-        label: "The small building: the states of the box are lit, arrows are their votes",
+        label: "The small building: lit states vote, arrows are votes",
         describe: (cell) => describe(cell),
         onAct: ({ cell }) => act(cell),
         keys: [["Enter, Space", "open the box of the cell; on a hollow star: make it the goal"]],
@@ -111,10 +111,8 @@
         if (!shown) return where;
         if (shown.terminal[cell]) return `${where}: the goal, which has no vote`;
         const star = goals().includes(cell) ? "the goal of another task; " : "";
-        const votes = row(shown.best, cell);
-        return `${where}: ${star}votes for ${ui.list(actionsWith(votes))}`;
+        return `${where}: ${star}votes for ${ui.list(at.LABELS.filter((_, a) => row(shown.best, cell)[a]).map(ui.sight))}`;
       }
-      const actionsWith = (votes) => [...votes.keys()].filter((a) => votes[a]).map(sight);
       function act(cell) {
         const other = goals().indexOf(cell);
         if (!shown) return;
@@ -132,7 +130,7 @@
         ));
         view.rename();
         words.textContent = place() < 0
-          ? `No state of the small building looks like this: ${ui.sights(state.z)}. Every action that is available gets the same chance.`
+          ? `No state of the small building looks like this: ${ui.sights(state.z)}.`
           : `Box ${place() + 1} of ${boxes.length}: ${ui.sights(state.z)}. ${plural(states[state.z], "state")} of ` +
             `${plural(goals().length, "task")} vote here, ${here.length} of them in the task shown.`;
         steps[0].enable(place() > 0);
@@ -146,7 +144,7 @@
         const places = [state.beta, 0, 1, WINNER];
         const rows = places.map(chance);
         return {
-          caption: `${words.textContent} Probabilities in this box, and mean values of the whole page.`,
+          caption: `${words.textContent} Probabilities, and mean values of the whole page.`,
           head: ["action", "votes", `β = ${betaText(state.beta)}`, "ND", "Prob", "winner"],
           rows: [...actions().map((a) => [sight(a), number(row(election.votes, state.z)[a], 4), ...rows.map((p) => number(p[a], 6))]), ...whole.rows(places, drives)],
         };

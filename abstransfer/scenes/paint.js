@@ -28,7 +28,7 @@
       const sides = SIDES.map(([task, map, size], i) => {
         const side = { task, of: map, size, tasks: null };
         side.view = ui.building({
-          label: `The ${size} building, painted by abstract state`,
+          label: `The ${size} building, painted`,
           describe: (cell) => describe(side, cell),
           onAct: ({ cell }) => act(side, cell),
           onPoint: (cell) => point(side, cell),
@@ -106,8 +106,7 @@
         const { map, tasks } = side;
         const at_ = ui.place(map, cell);
         if (tasks.terminal[cell]) return `${at_}: the goal`;
-        const star = map.goals.includes(cell) ? "the goal of another task; " : "";
-        return `${at_}: ${star}${ui.sights(masked(tasks.rho[cell]))}; ${plural(alike(side, tasks.rho[cell]).length, "cell")} of this task`;
+        return `${at_}: ${map.goals.includes(cell) ? "the goal of another task; " : ""}${ui.sights(masked(tasks.rho[cell]))}; ${plural(alike(side, tasks.rho[cell]).length, "cell")} of this task`;
       }
       function act(side, cell) {
         const other = side.map.goals.indexOf(cell);
@@ -144,7 +143,7 @@
           node.classList.toggle("ab-now", Boolean(isYes));
         });
         words.textContent = z < 0
-          ? "Point at a cell: what looks like it to the robot is lit in both buildings. A click keeps it lit."
+          ? "Point at a cell: what looks like it is lit in both buildings. A click keeps it lit."
           : `Lit, because alike: ${sides.map((side) => litText(side, z)).join("; ")}.`;
       }
       const total = (side, z) => seen[side.size][masked(z)];
@@ -154,18 +153,10 @@
       }
 
       const now = (state) => (full && hasBet(state) ? paint.counts(counted.home, counted.away, state.features) : null);
-      function twin(state, counts) {
-        const z = pointed ?? state.z;
-        const of = (side) => [
-          [`cells lit in the ${side.size} building`, side.lit.length, ""],
-          [`states of all its ${side.map.goals.length} tasks`, z < 0 || !seen ? "–" : total(side, z), ""],
-        ];
-        return {
-          caption: `Lit: ${z < 0 ? "nothing" : ui.sights(masked(z))}.`,
-          head: ["number", "with the features ticked", "with all 11"],
-          rows: [...sides.flatMap(of), ...found.rows(counts, full)],
-        };
-      }
+      const twin = (counts) => ({
+        caption: words.textContent, head: ["number", "with the features ticked", "with all 11"],
+        rows: found.rows(counts, full),
+      });
 
       return function draw(state, changed) {
         const has = (...names) => names.some((name) => changed.has(name));
@@ -181,7 +172,7 @@
         if (has("task", "away", "features", "z")) scene.say(words.textContent);
         const counts = now(state);
         found.show(state, counts, full);
-        scene.twin(() => twin(state, counts));
+        scene.twin(() => twin(counts));
         scene.close(found.closing(state, counts, full));
       };
     },
