@@ -44,9 +44,8 @@ def one_page(html: Path, pages: list[tuple[str, list[str]]]) -> str:
             if title:
                 article.h1.insert_before(kicker := Tag(name="p"))
                 kicker["class"], kicker.string = "part", title
-            items.append(
-                f'<li><a href="#{name}">{article.h1.decode_contents()}</a></li>'
-            )
+            words = article.h1.decode_contents()
+            items.append(f'<li><a href="#{name}">{words}</a><span></span></li>')
             chapters.append(f'<section class="chapter" id="{name}">{article}</section>')
         contents.append(
             (f"<h3>{title}</h3>" if title else "") + f"<ol>{''.join(items)}</ol>"

@@ -46,14 +46,11 @@ def print_page(text: str, out: Path, browser: str) -> list[str]:
         say("drawing the formulas")
         tab.wait_for_function(DRAWN)
         wide = tab.evaluate(TOO_WIDE, WIDTH)
-        say("printing")
-        tab.pdf(
-            path=out,
-            prefer_css_page_size=True,
-            print_background=True,
-            outline=True,
-            tagged=True,
-        )
+        # Twice: only the first print knows on which page a chapter begins.
+        for n in (1, 2):
+            say(f"printing, {n} of 2")
+            tab.pdf(path=out, prefer_css_page_size=True, outline=True, **LOOKS)
+            tab.evaluate(NUMBER, page_numbers(out.read_bytes()))
         chromium.close()
     out.write_bytes(mended(out.read_bytes()))
     return wide
@@ -63,6 +60,11 @@ def print_page(text: str, out: Path, browser: str) -> list[str]:
 DRAWN = """() => document.fonts.status === "loaded" &&
   document.querySelectorAll(".math").length ===
   document.querySelectorAll("mjx-container").length"""
+NUMBER = """numbers => {
+  for (const link of document.querySelectorAll("header nav a"))
+    link.nextSibling.textContent = numbers[link.hash.slice(1)];
+}"""
+LOOKS = {"print_background": True, "tagged": True}
 TOO_WIDE = """width => [...document.querySelectorAll("main *")]
   .filter(e => e.getBoundingClientRect().right > width + 2)
   .filter(e => !e.closest("svg, mjx-container > *"))
@@ -96,9 +98,17 @@ def mended(pdf: bytes) -> bytes:
     )
 
 
+def page_numbers(pdf: bytes) -> dict[str, int]:
+    """Return the page on which each target of a link stands, in Chromium's PDF."""
+    objects = re.findall(rb"(\d+) 0 obj\s*<<\s*/Type /Page\b", pdf)
+    numbers = {place: number for number, place in enumerate(objects, 1)}
+    places = re.findall(rb"/([\w-]+) \[(\d+) 0 R /XYZ", pdf)
+    return {name.decode(): numbers[place] for name, place in places}
+
+
 def count_pages(pdf: Path) -> int:
     """Return the number of pages of a PDF that Chromium wrote."""
-    return len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
+    return len(re.findall(rb"/Type /Page\b", pdf.read_bytes()))
 
 
 def say(words: str) -> None:
