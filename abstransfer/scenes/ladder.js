@@ -54,7 +54,7 @@
       const { ui, studio } = at;
       const { make, number, list } = ui;
       const name = (row) => ui.armStyle(row).name;
-      let [found, first, target] = [null, null, null];
+      let [found, before, first, target] = [null, null, null, null];
 
       const me = studio.makeEditor(scene, { label: "The source", begin });
       const ladders = at.ladder.makeLadders({ label: "Table 1 as two ladders", isCalm: () => scene.calm });
@@ -89,6 +89,7 @@
 
       const isDone = () => found?.iteration === GRAD;
       function begin() {
+        before = found ?? before;
         found = null;
         const { success, actions, near, almost_near: almostNear } = scene.state;
         const job = !me.problem && !me.isLarge() && solving([me.map, target], { success, actions, near, almostNear });
@@ -107,6 +108,9 @@
       const isOpen = () => Boolean(scene.state.order && scene.state.gap);
       const isHidden = (side, row) => side === "target" && PAGES.includes(row) && !isOpen();
       const valueOf = (side, row) => (isHidden(side, row) ? null : (found?.[side][row] ?? null));
+      // While the new rungs are not known, the old ones stay.
+      const drawn = (side, row) =>
+        valueOf(side, row) ?? (me.problem || me.isLarge() || isHidden(side, row) ? null : before?.[side][row]);
       const ranked = (side, rows, of = found) => [...rows].sort((a, b) => of[side][b] - of[side][a]);
       const priced = (side, rows) => list(ranked(side, rows).map((row) => `${name(row)} ${number(found[side][row])}`));
 
@@ -116,7 +120,7 @@
           hint: side === "target" && !isOpen() && ["ND?", "Prob?", "Grad?"],
           isFaint: !isPapers(),
           rungs: at.ROWS.map((row) => ({
-            arm: row, value: valueOf(side, row), note: row === "grad" && !isDone(),
+            arm: row, value: drawn(side, row), note: row === "grad" && !isDone(),
             mark: isHidden(side, row) ? null : at.PAPER[side][row],
           })),
         })));
@@ -147,10 +151,10 @@
           return `${scene.betResult("order", order.join())} ${scene.betResult("gap", gap)} ${now}`.trim();
         }
         if (!first) return now;
-        const before = ranked("target", PAGES, first);
+        const old = ranked("target", PAGES, first);
         const moves = PAGES.map((row) => [row, found.target[row] - first.target[row]]);
         const [most, by] = moves.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
-        const turn = before.join() === order.join() ? "The order of the pages is as it was" : `The order of the pages was ${list(before.map(name))}, and is ${list(order.map(name))}`;
+        const turn = old.join() === order.join() ? "The order of the pages is as it was" : `The order of the pages was ${list(old.map(name))}, and is ${list(order.map(name))}`;
         return `${now} ${turn}; ${name(most)} moved most, by ${by > 0 ? "+" : ""}${number(by)}.`;
       }
       const printed = (x, digits) => (Number.isFinite(x) ? number(x, digits) : "–");

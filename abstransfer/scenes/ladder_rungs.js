@@ -42,8 +42,8 @@
         for (const { arm, value } of rungs) {
           const key = title + arm;
           const before = places[key];
-          if (!Number.isFinite(value)) delete places[key];
-          else if (!before || isCalm()) places[key] = { from: value, to: value, began: 0 };
+          if (!Number.isFinite(value)) continue; // where it was, it glides from
+          if (!before || isCalm()) places[key] = { from: value, to: value, began: 0 };
           else if (before.to !== value) places[key] = { from: placeOf(before, now), to: value, began: now };
         }
       }
@@ -70,7 +70,7 @@
           drawn("path", { d: `M${x} ${y(0)}V${y(-100)}`, class: "ab-axis" }),
           text(title, x, TOP - 18, { "text-anchor": "middle", class: "ab-name" }),
         );
-        const shown = rungs.filter(({ arm }) => places[title + arm]);
+        const shown = rungs.filter(({ value }) => Number.isFinite(value));
         const heights = shown.map(({ arm }) => y(placeOf(places[title + arm], now)));
         const rows = at.ui.spread(heights, LINE, TOP, height - BOTTOM);
         const aside = asides(heights);
