@@ -5,7 +5,8 @@ Write the student edition of the notebooks: blanks instead of solutions.
 
 One source serves both editions.  In a solution's code, a statement that ends with
 ``# blank`` is what a student writes; here ``...`` takes its place.  The rest of the
-solution, its text and its cells without a blank, is left out.
+solution, its text and its cells without a blank, is left out.  An open exercise, of
+which no cell would stay, gets an empty one that says so.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from pathlib import Path
 import nbformat
 
 BOOK = Path(__file__).parents[1] / "book"
+OPEN = "# An open exercise, without a check: your code"
 MARK = re.compile(r"#\s*blank\s*$", re.MULTILINE)
 BARE_TWICE = re.compile(r"^( *)\.\.\.(?:\n\1\.\.\.)+$", re.MULTILINE)
 START = re.compile(r"^(`{3,})\{solution-start\}[^\n]*\n(?::[^\n]*\n)*\1[^\S\n]*$", re.M)
@@ -29,13 +31,17 @@ END = re.compile(r"^(`{3,})\{solution-end\}[^\S\n]*\n\1[^\S\n]*$", re.M)
 def student_edition(notebook):
     """Return a copy of a notebook for students."""
     notebook = copy.deepcopy(notebook)
-    cells, in_solution = [], False
+    cells, in_solution, has_blank = [], False, False
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
+            if in_solution and not has_blank and END.search(cell.source):
+                cells.append(nbformat.v4.new_code_cell(OPEN, id=f"open-{cell.id}"))
+            has_blank &= not START.search(cell.source)
             cell.source, in_solution = without_solutions(cell.source, in_solution)
             keep = bool(cell.source)
         elif in_solution:
             keep = bool(MARK.search(cell.source))
+            has_blank |= keep
             cell.source = stub(cell.source)
             cell.outputs, cell.execution_count = [], None
         else:

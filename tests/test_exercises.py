@@ -169,7 +169,16 @@ def test_a_wrong_answer_is_shown_beside_the_right_one():
     assert "Yours gives 0.5, not 0" in text
 
 
-@pytest.mark.parametrize("key", ["ex-99-1", "ex-1-99", "nonsense", None, 3, [], ""])
+def test_an_open_exercise_is_told_from_those_that_are_checked():
+    reply = check("ex-8-3", 1)
+
+    assert not reply
+    assert reply.verdict == "not checked"
+    assert "An open exercise has no check" in reply.text
+    assert "ex-8-1, ex-8-2" in reply.text
+
+
+@pytest.mark.parametrize("key", ["ex-99-1", "nonsense", None, 3, [], ""])
 def test_an_unknown_exercise_is_told(key):
     reply = check(key, 1)
 

@@ -91,6 +91,16 @@ def test_cells_of_a_solution_are_stubs_or_left_out():
     assert blank.outputs, "the full edition is not touched"
 
 
+def test_an_open_exercise_gets_an_empty_cell_that_says_so():
+    shown = new_code_cell("print(4)", outputs=[])
+    cells = [new_markdown_cell(BEFORE), shown, new_markdown_cell(AFTER)]
+
+    edition = student_edition.student_edition(new_notebook(cells=cells))
+
+    assert [c.cell_type for c in edition.cells] == ["markdown", "code", "markdown"]
+    assert edition.cells[1].source == student_edition.OPEN
+
+
 @pytest.fixture(params=PAGES, ids=lambda path: path.stem)
 def page(request):
     return nbformat.read(request.param, as_version=4)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from ._judge import agree, counterexample, outcomes
-from ._model import Exercise, all_exercises, exercises_of, page_of
+from ._model import Exercise, exercises_of, page_of
 from ._read import Unreadable
 
 NOT_GIVEN = object()
@@ -19,7 +19,7 @@ class Reply:
     """What is said to an answer; true if the answer is right."""
 
     key: str
-    verdict: str  # "right", "not yet", "hint" or "no answer yet"
+    verdict: str  # "right", "not yet", "hint", "no answer yet" or "not checked"
     text: str
 
     def __bool__(self) -> bool:
@@ -58,7 +58,7 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
     """
     exercise = exercises_of(page_of(key) or 0).get(key) if page_of(key) else None
     if exercise is None:
-        return Reply(str(key), "no answer yet", _unknown(page_of(key)))
+        return Reply(str(key), "not checked", _unknown(page_of(key)))
     if answer is NOT_GIVEN:
         return Reply(key, "hint", _next_hint(exercise))
     try:
@@ -105,5 +105,10 @@ def _next_hint(exercise: Exercise) -> str:
 
 
 def _unknown(page: int | None) -> str:
-    known = exercises_of(page) if page else [e.key for e in all_exercises()]
-    return f"There is no such exercise; known are {', '.join(known) or 'none here'}."
+    known = ", ".join(exercises_of(page)) if page else ""
+    if not known:
+        return "There is no such exercise; `python -m abstransfer.exercises` lists all."
+    return (
+        "No answer is stored under this name. An open exercise has no check: compare "
+        f"with its solution, or with a neighbor. Checked on this page: {known}."
+    )
