@@ -12,7 +12,7 @@ from ._stills_runs import MARKS, _line, _text
 from ._style import PALETTE, arm_style, number, spread
 
 WIDTH, HEIGHT = 320, 300  # units of the drawing
-TOP, BOTTOM, SIDE, LINE = 30, 12, 112, 14
+TOP, BOTTOM, SIDE, LINE, STEP = 30, 12, 112, 14, 10
 SHAPES = MARKS | {"star": "M0-5L1.5-1.5 5-1.5 2 1 3.2 5 0 2.6-3.2 5-2 1-5-1.5-1.5-1.5Z"}
 
 
@@ -44,22 +44,37 @@ def ladders_svg(
         parts.append(_text(x, TOP - 16, name, "middle"))
         heights = np.array([_y(value) for value in column.values()])
         labels = spread(heights, LINE)
-        for row, height, label in zip(column, heights, labels, strict=True):
+        theirs = {row: _y(v) for row, v in paper.get(name, {}).items() if row in column}
+        for row, shift in zip(theirs, _asides([*theirs.values()]), strict=True):
+            place = x - (14 + shift) * out, theirs[row]
+            parts.append(_mark(row, *place, paint("ground")))
+        asides = _asides(heights)
+        for row, height, label, aside in zip(
+            column, heights, labels, asides, strict=True
+        ):
             color = f"var(--ab-arm-{row},{arm_style(row).color})"
             end = x + 22 * out
-            parts.append(_line(f"M{x} {height:.1f}L{end} {label:.1f}", color))
+            at = x + aside * out
+            parts.append(_line(f"M{at} {height:.1f}L{end} {label:.1f}", color))
             words = f"{arm_style(row).name} {number(column[row])}"
             anchor = "start" if side else "end"
             parts.append(_text(end + 3 * out, label + 4, words, anchor, color))
-            theirs = paper.get(name, {}).get(row)
-            if theirs is not None:
-                parts.append(_mark(row, x - 14 * out, _y(theirs), paint("ground")))
-            parts.append(_mark(row, x, height, color))
+            parts.append(_mark(row, at, height, color))
     looks = f"font:11px sans-serif;fill:{paint('ink')}"
     return (
         f'<svg role="img" viewBox="0 0 {WIDTH} {HEIGHT}" aria-label="{escape(alt)}" '
         f'style="{looks}">{"".join(parts)}</svg>'
     )
+
+
+def _asides(heights) -> list[int]:
+    """Return how far marks step aside: every second one of those that are close."""
+    aside, before = [0] * len(heights), None
+    for i in np.argsort(heights):
+        close = before is not None and heights[i] - heights[before] < STEP
+        aside[i] = STEP if close and not aside[before] else 0
+        before = i
+    return aside
 
 
 def _y(value: float) -> float:

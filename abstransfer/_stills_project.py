@@ -21,11 +21,12 @@ def bars_svg(bars: Mapping[str, tuple[str, float]], alt: str) -> str:
     parts = []
     for i, (name, (arm, value)) in enumerate(bars.items()):
         y, color = i * ROW + 4, _color(arm)
-        end = LEFT + (WIDTH - LEFT - RIGHT) * (value + 100) / 100
+        right = WIDTH - RIGHT
+        end = right + (right - LEFT) * value / 100  # as in the scene: a cost
         parts += [
             _text(0, y + 13, name, "start", color),
-            f'<path d="M{LEFT} {y + 3}H{end:.1f}v13H{LEFT}z" style="fill:{color}"/>',
-            _text(end + 4, y + 13, number(value), "start"),
+            f'<path d="M{right} {y + 3}H{end:.1f}v13H{right}z" style="fill:{color}"/>',
+            _text(right + 6, y + 13, number(value), "start"),
         ]
     return _svg(parts, len(bars) * ROW + 4, alt)
 

@@ -27,6 +27,7 @@ NAMES = {
     "rand": "random",
     "optimal": "optimal",
 }
+FROM = {"source": "the source", "target": "the target", "own": "it"}
 SCHOOL = """\
 +-----+-----+-----+
 |     |     |     |
@@ -141,8 +142,8 @@ class Project(Scene):
         rooms = f"{count(map_.n_rooms, 'room')} and {count(len(map_.goals), 'goal')}"
         caption = (
             f"A race in a building with {rooms}; the pages were written in "
-            f"{self.advice}. A life without advice reaches {none.mean():,.0f} goals. "
-            f"Of {lives} with the same luck, {', '.join(words)}: {self.strategy} "
+            f"{FROM[self.advice]}. A life without advice reaches {none.mean():,.0f} "
+            f"goals. Of {lives} with the same luck, {', '.join(words)}: {self.strategy} "
             "advice."
         )
         best = max(setup.guides, key=values.get, default="optimal")
