@@ -143,8 +143,8 @@ class Project(Scene):
         caption = (
             f"A race in a building with {rooms}; the pages were written in "
             f"{FROM[self.advice]}. A life without advice reaches {none.mean():,.0f} "
-            f"goals. Of {lives} with the same luck, {', '.join(words)}: {self.strategy} "
-            "advice."
+            f"goals. Of {lives} with the same luck, {', '.join(words)}: "
+            f"{self.strategy} advice."
         )
         best = max(setup.guides, key=values.get, default="optimal")
         told = f"How pages drive: {NAMES[best]} best, {number(values[best])}."
