@@ -138,6 +138,8 @@ def _data(name: str) -> dict:
         "totals": [results.totals(arm.name).tolist() for arm in ARMS],
         "lives": lives.tolist(),
         "partners": partners.tolist(),
+        "firstLook": FIRST_LOOK,
+        "readings": {key: read_along(_verdicts(name, key))._asdict() for key in KEYS},
         "claims": {
             key: {
                 "title": titles.get(key, ""),

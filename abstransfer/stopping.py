@@ -9,6 +9,7 @@ twice, where nothing is to be found.  Page 9 of the book teaches this module.
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -53,20 +54,13 @@ class Stops(NamedTuple):
 
 
 def comparisons(results: Results, key: str) -> tuple[Comparison, ...]:
-    """
-    Return what a claim rests on, (K,).
-
-    >>> from abstransfer.results import read_results
-    >>> comparisons(read_results("goal-target"), "2")[0][:4]
-    ('nd-soft over nd-hard', 'nd-soft', 'nd-hard', 0.0)
-    """
+    """Return what a claim rests on, (K,); `key` is one of `KEYS`."""
     if key not in KEYS:
         raise ValueError(f"key must be one of {', '.join(KEYS)}, got {key!r}")
     if key == SAME:
-        names = (arm.name for arm in results.arms)
         return tuple(
             Comparison(f"{name} over itself", name, name, 0.0, True, True)
-            for name in names
+            for name, *_ in results.arms
         )
     one = results._replace(goals=results.goals[:, :1])  # quick: effects are not read
     found = []
@@ -83,7 +77,7 @@ def comparisons(results: Results, key: str) -> tuple[Comparison, ...]:
 
 def orders(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
     """
-    Return the orders of the lives, and those of partners for "same", (5, N) each.
+    Return the orders of the lives and of partners for "same", (5, N) each.
 
     Order 0 is as run; order k is shuffled with seed [k, 0], a partner with [k, 1].
 
@@ -110,14 +104,20 @@ def running_gains(a: np.ndarray, b: np.ndarray) -> Interval:
     """
     rows = []
     for n in range(2, len(a) + 1):
-        drawn = np.random.default_rng(0).integers(0, n, (RESAMPLES, n))
-        drawn += n * np.arange(RESAMPLES)[:, None]
-        times = np.bincount(drawn.ravel(), minlength=n * RESAMPLES)
-        times = times.reshape(RESAMPLES, n).astype(float)
+        times = _times(n).astype(float)
         gain = (times @ a[:n]) / (times @ b[:n]) - 1
         ends = np.quantile(gain, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=0)
         rows.append((a[:n].mean(axis=0) / b[:n].mean(axis=0) - 1, *ends))
     return Interval(*np.array(rows).transpose(1, 0, 2))
+
+
+@lru_cache(maxsize=64)
+def _times(n: int) -> np.ndarray:
+    """Return how often each life is in each resample of n, (RESAMPLES, n)."""
+    drawn = np.random.default_rng(0).integers(0, n, (RESAMPLES, n))
+    drawn += n * np.arange(RESAMPLES)[:, None]
+    times = np.bincount(drawn.ravel(), minlength=n * RESAMPLES)
+    return times.reshape(RESAMPLES, n).astype(np.uint8)
 
 
 def tracks(results: Results, key: str) -> list[list[str]]:

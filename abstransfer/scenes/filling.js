@@ -4,7 +4,6 @@
 (function filling(at) {
   "use strict";
 
-  const FIRST_LOOK = 5;
   const SAME = "same";
   const CLAIMS = { 1: "1", 2: "2", 3: "3", 4: "4", 5: "5", [SAME]: "each arm against itself" };
   const ORDERS = { 0: "as run", 1: "shuffled 1", 2: "shuffled 2", 3: "shuffled 3", 4: "shuffled 4" };
@@ -38,18 +37,6 @@
   }
   // Verdicts by track: of the claim, or of each comparison of an arm with itself.
   const verdictsOf = (findings, key) => (key === SAME ? findings.map((f) => f.verdict) : [combine(findings)]);
-
-  // What a reader does who looks after each life; `tracks` hold verdicts after 2..N lives.
-  function readAlong(tracks) {
-    let [settled, wrong] = [2, 0];
-    const stops = tracks.map((track) => {
-      const at = track.findIndex((verdict, i) => i + 2 >= FIRST_LOOK && verdict !== UNDECIDED);
-      settled = Math.max(settled, 3 + track.findLastIndex((verdict) => verdict !== track.at(-1)));
-      wrong += at >= 0 && track[at] !== track.at(-1);
-      return at < 0 ? null : at + 2;
-    });
-    return { verdict: tracks[0].at(-1), settled, stops, wrong };
-  }
 
   at.scene("filling", {
     title: "When would you sign?",
@@ -88,33 +75,13 @@
           compared),
       );
 
-      // ---- what all lives say, worked out in slices when the reader has signed
-      let [readings, tracks, timer] = [{}, [], null];
-      function begin(key) {
-        tracks = [];
-        const { data } = state;
-        const runs = data.lives[0].length;
-        let [k, n, mine] = [0, 2, []];
-        (function slice() {
-          const end = performance.now() + 15;
-          while (k < data.lives.length && performance.now() < end) {
-            verdictsOf(findingsOf(data, key, k, n), key).forEach((verdict, i) => (mine[i] ??= []).push(verdict));
-            if (++n > runs) [k, n, mine] = [k + 1, 2, (tracks.push(...mine), [])];
-          }
-          timer = k < data.lives.length ? setTimeout(slice) : null;
-          if (!timer) readings[key] = readAlong(tracks);
-          if (!timer) scene.redraw();
-        })();
-      }
-      scene.onLeave(() => clearTimeout(timer));
-
+      // What all lives say is Python's: data.readings.
       function closing(runs) {
-        const { claim, signed } = state;
-        const found = readings[claim];
+        const { claim, signed, data } = state;
         if (!state.bet || !signed) return "";
-        if (!found) return "Reading all lives, in five orders …";
+        const found = data.readings[claim];
         const n = found.stops.filter(Boolean);
-        const looks = `who looks after each life from life ${FIRST_LOOK} on, and signs as soon as`;
+        const looks = `who looks after each life from life ${data.firstLook} on, and signs as soon as`;
         if (claim === SAME) {
           return (
             `You signed after ${signed} lives. Each arm was compared with itself, so there is nothing to sign. ` +
@@ -137,14 +104,11 @@
         if (!data.totals) return;
         const runs = data.lives[0].length;
         if (changed.has("data")) {
-          readings = {};
           scene.limit("n", [2, runs]);
           scene.limit("signed", [0, runs]);
         }
         const isNew = ["claim", "order", "data"].some((name) => changed.has(name));
-        if (isNew && clearTimeout(timer) === undefined) timer = null;
         if (isNew && !changed.has("signed")) scene.set({ signed: 0 });
-        if (state.bet && state.signed && !readings[claim] && !timer) begin(claim);
 
         const lives = data.lives[state.order].slice(0, n);
         const rows = data.arms.map((arm, i) => {
@@ -195,5 +159,5 @@
       };
     },
   });
-  Object.assign(at.filling, { findingsOf, verdictsOf, readAlong });
+  Object.assign(at.filling, { findingsOf, verdictsOf });
 })((globalThis.abstransfer ??= {}));
