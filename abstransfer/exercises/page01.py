@@ -62,7 +62,7 @@ EXERCISES = [
         "ex-1-1",
         "A robot stands 20 steps from the goal and no move fails. It pays 1 where it "
         "stands now and in each cell on its way, and nothing on the goal; each step "
-        "later counts 0.99 times as much. What is the value of its state?",
+        "later counts 0.99 times as much. What is the return of its way?",
         -(1 - GAMMA**20) / (1 - GAMMA),
         hints=(
             "Write down the first three payments, and what each counts.",
@@ -74,7 +74,7 @@ EXERCISES = [
             Wrong(
                 "the sign",
                 (1 - GAMMA**20) / (1 - GAMMA),
-                "The size is right. But the robot pays, so the value is below 0.",
+                "The size is right. But the robot pays, so the return is below 0.",
             ),
             Wrong(
                 "one payment too many",
@@ -93,6 +93,7 @@ EXERCISES = [
                 "The payment of this moment counts in full; the next one counts 0.99.",
             ),
         ],
+        tolerance=1e-3,  # two decimals are enough
     ),
     value(
         "ex-1-2",
