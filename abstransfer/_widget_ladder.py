@@ -10,8 +10,8 @@ from ._cells import count
 from ._stills import building_svg
 from ._stills_ladder import ladders_svg
 from ._style import arm_style, number
-from ._widget import MapTrait, Scene, Still, as_map
-from ._widget_studio import read_drawing
+from ._widget import MapTrait, Still
+from ._widget_drawn import DrawnScene
 from .maps import Map, read_map
 from .navigation import navigation_tasks
 from .table1 import BUILDERS, PAPER, ROWS, table1
@@ -21,7 +21,7 @@ SIDES = ("source", "target")
 READING = ("success", "actions", "near", "almost_near")
 
 
-class Ladder(Scene):
+class Ladder(DrawnScene):
     """
     Table 1 as two ladders: edit the source, and the rungs move in both buildings.
 
@@ -49,6 +49,7 @@ class Ladder(Scene):
     """
 
     scene = "ladder"
+    drawn = "source"
     source = MapTrait("source").tag(sync=False)
     text = traitlets.Unicode(str(read_map("source"))).tag(sync=True)
     target = MapTrait("target")
@@ -59,24 +60,6 @@ class Ladder(Scene):
     almost_near = traitlets.Int(8, min=0, max=20).tag(sync=True)
     order = traitlets.Unicode("").tag(sync=True)
     gap = traitlets.Unicode("").tag(sync=True)
-
-    def __init__(self, source=None, **options):
-        if source is not None:
-            if "text" in options:
-                raise ValueError("source must not be given together with text")
-            options["text"] = str(as_map(source))
-        super().__init__(**options)
-
-    @traitlets.observe("text")
-    def _read(self, _):
-        drawn, _ = read_drawing(self.text)
-        if drawn is not None:
-            self.source = drawn
-
-    @traitlets.observe("source")
-    def _write(self, _):
-        if read_drawing(self.text)[0] != self.source:
-            self.text = str(self.source)
 
     @property
     def table(self) -> dict:

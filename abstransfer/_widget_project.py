@@ -10,8 +10,8 @@ from ._cells import count
 from ._stills import building_svg
 from ._stills_project import bars_svg, dots_svg
 from ._style import number
-from ._widget import MapTrait, Scene, Still, as_map
-from ._widget_studio import read_drawing
+from ._widget import MapTrait, Still
+from ._widget_drawn import DrawnScene
 from .navigation import FEATURES
 from .project import ADVICE, GUIDES, Setup, drives, run
 from .project_card import card_text
@@ -46,7 +46,7 @@ SCHOOL = """\
 +-----+-----+-----+"""
 
 
-class Project(Scene):
+class Project(DrawnScene):
     """
     Your turn: draw a building, choose what robots see, race, and hand in a card.
 
@@ -90,24 +90,6 @@ class Project(Scene):
     lives = traitlets.Int(5, min=1, max=20).tag(sync=True)
     bet = traitlets.Unicode("").tag(sync=True)
     goals = traitlets.Dict().tag(sync=True)
-
-    def __init__(self, map=None, **options):
-        if map is not None:
-            if "text" in options:
-                raise ValueError("map must not be given together with text")
-            options["text"] = str(as_map(map))
-        super().__init__(**options)
-
-    @traitlets.observe("text")
-    def _read(self, _):
-        drawn, _ = read_drawing(self.text)
-        if drawn is not None:
-            self.map = drawn
-
-    @traitlets.observe("map")
-    def _write(self, _):
-        if read_drawing(self.text)[0] != self.map:
-            self.text = str(self.map)
 
     @property
     def setup(self) -> Setup:

@@ -7,8 +7,9 @@ import traitlets
 from ._cells import count
 from ._stills import building_svg
 from ._style import arm_style, number
-from ._widget import MapTrait, Scene, Still, as_map
-from .maps import Map, parse_map, read_map
+from ._widget import MapTrait, Still
+from ._widget_drawn import DrawnScene, read_drawing
+from .maps import Map, read_map
 from .navigation import NavigationTasks, navigation_tasks
 from .solvers import evaluate_policy, optimal_values
 from .table1 import BUILDERS, PAPER, ROWS, abstract_policies, column
@@ -18,7 +19,7 @@ SHOWN = ("plain", "states", "nd", "prob", "grad", "optimal")
 MANY = 2000  # states: from here on, Python would be slow to climb to Grad
 
 
-class Studio(Scene):
+class Studio(DrawnScene):
     """
     Map Studio: draw walls, doors, rooms and goals; walk a robot; watch Table 1.
 
@@ -62,24 +63,6 @@ class Studio(Scene):
     start = traitlets.Int(80, min=0).tag(sync=True)
     walk = traitlets.Unicode("EENNW").tag(sync=True)
     bet = traitlets.Unicode("").tag(sync=True)
-
-    def __init__(self, map=None, **options):
-        if map is not None:
-            if "text" in options:
-                raise ValueError("map must not be given together with text")
-            options["text"] = str(as_map(map))
-        super().__init__(**options)
-
-    @traitlets.observe("text")
-    def _read(self, _):
-        drawn, _ = read_drawing(self.text)
-        if drawn is not None:
-            self.map = drawn
-
-    @traitlets.observe("map")
-    def _write(self, _):
-        if read_drawing(self.text)[0] != self.map:
-            self.text = str(self.map)
 
     @property
     def problem(self) -> str:
@@ -135,14 +118,6 @@ class Studio(Scene):
 
     def __repr__(self) -> str:
         return super().__repr__().replace("text=...", f"map={self.map!r}")
-
-
-def read_drawing(text: str) -> tuple[Map | None, str]:
-    """Return the map that a text draws and "", or None and why it draws none."""
-    try:
-        return parse_map(text), ""
-    except ValueError as error:
-        return None, str(error)
 
 
 def _is_source(map_: Map) -> bool:
