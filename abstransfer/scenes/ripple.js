@@ -43,7 +43,7 @@
       });
       const arrows = scene.toggle("arrows", { label: "Best actions, as arrows; a frame where there is more than one" });
       scene.add(
-        scene.bet("bet", { question: "Bet first: how many sweeps until every cell knows its value to within a hundredth?", options: SWEEPS }),
+        scene.bet("bet", { question: "Bet first: how many sweeps until every cell, in every task, knows its value to within a hundredth?", options: SWEEPS }),
         scene.bet("ties", { question: "And in how many cells is there more than one best action?", options: TIES }),
         scene.row(
           scene.slider("task", { label: "Task: goal number", format: (task) => `${task + 1}` }),
@@ -163,8 +163,8 @@
         const results = [scene.betResult("bet", truth), scene.betResult("ties", truthOfTies)];
         const all = n > 1 ? ` In all ${n} tasks: at most ${farthest} steps, ${most} sweeps, ${count(ties)} of ${count(cells)} cells.` : "";
         return (
-          `${results.join(" ")} News reaches the farthest cell, ${ui.plural(far, "step")} away, in sweep ${far}; every cell knows its ` +
-          `value to within a hundredth after ${ui.plural(wave.end, "sweep")} (a move succeeds with probability ${number(state.success, 2)}). ` +
+          `${results.join(" ")} News reaches the farthest cell of this task, ${ui.plural(far, "step")} away, in sweep ${far}; every cell knows its ` +
+          `value to within a hundredth after ${ui.plural(wave.end, "sweep")}. ` +
           `More than one action is best in ${nTies} of ${count(map.nCells - 1)} cells.${all}`
         ).trim();
       }
