@@ -108,6 +108,8 @@ def link(href: str, name: str, names: set[str]) -> str | None:
 
     >>> link("03_learning.html#q", "08_advice", {"03_learning"})
     '#03_learning--q'
+    >>> link("03_learning.html#microscope.t=9", "08_advice", {"03_learning"})
+    '#03_learning'
     >>> link("https://example.org", "08_advice", set())
     'https://example.org'
     """
@@ -117,7 +119,8 @@ def link(href: str, name: str, names: set[str]) -> str | None:
     page = to.path.removesuffix(".html") if to.path else name
     if page not in names:
         return None
-    return f"#{page}--{to.fragment}" if to.fragment else f"#{page}"
+    is_moment = "=" in to.fragment  # of a scene: on paper it has no place
+    return f"#{page}--{to.fragment}" if to.fragment and not is_moment else f"#{page}"
 
 
 def file(html: Path, path: str) -> str:

@@ -30,6 +30,7 @@ def test_every_page_of_the_table_of_contents_is_printed_in_its_order():
         ("#quiz", "#00_race--quiz"),
         ("notation.html", "#notation"),
         ("notation.html#words", "#notation--words"),
+        ("notation.html#race.t=0", "#notation"),
         ("https://example.org/a#b", "https://example.org/a#b"),
         ("_sources/00_race.ipynb", None),
         ("genindex.html", None),
