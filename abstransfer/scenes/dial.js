@@ -166,7 +166,7 @@
           name: side, arm: `dial-${side}`, points: state.bet ? tried(side).map(([beta, goals]) => [beta, goals / 1000]) : [],
         }));
         const list = state.bet ? tried() : [];
-        y.max = 1.25 * Math.max(...curves.flatMap(({ points }) => points.map(([, goals]) => goals)), 1);
+        y.max = 1.25 * Math.max(...curves.flatMap(({ points }) => points.map(([, goals]) => goals)), 4);
         teaching.set({ curves, cursor: state.beta, marks: list.length ? mark(best(list)[0]) : [] });
       }
 
