@@ -9,8 +9,9 @@ Run the book's notebooks and store their outputs, the same bytes every time.
 What differs from run to run is settled: times are dropped, the pieces of a
 printed stream are joined, and the random names of widgets become numbers in
 the order of their use.  Of a scene only its HTML is kept: the widget would carry
-all scripts.  The alt text that a figure brings along ("alt" in the metadata of its
-output) is put where the builder of the book looks for it.
+all scripts.  The code of a solution is folded, for JupyterLab.  The alt text that a
+figure brings along ("alt" in the metadata of its output) is put where the builder
+of the book looks for it.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from pathlib import Path
 
 import nbformat
 from nbclient import NotebookClient
+from student_edition import without_solutions
 
 BOOK = Path(__file__).parents[1] / "book"
 RANDOM_NAME = re.compile(r"(?<![0-9a-f])[0-9a-f]{32}(?![0-9a-f])")
@@ -68,6 +70,7 @@ def settled(notebook) -> str:
             cell.outputs = join_streams(cell.outputs)
             drop_scenes(cell.outputs, widgets["state"])
             take_alt_text(cell)
+    fold_solutions(notebook.cells)
     if not any(WIDGET in output.get("data", {}) for output in outputs_of(notebook)):
         widgets["state"].clear()  # what a scene made for itself; nothing shows it
     names = numbered(nbformat.writes(notebook), widgets["state"])
@@ -140,6 +143,16 @@ def take_alt_text(cell) -> None:
             if isinstance(of_type, dict) and "alt" in of_type:
                 page = cell.metadata.setdefault("mystnb", {})
                 page.setdefault("image", {})["alt"] = of_type["alt"]
+
+
+def fold_solutions(cells: list) -> None:
+    """Let JupyterLab fold the code of solutions: a page does so by itself."""
+    inside = False
+    for cell in cells:
+        if cell.cell_type == "markdown":
+            _, inside = without_solutions(cell.source, inside)
+        elif inside:
+            cell.metadata["jupyter"] = {"outputs_hidden": True, "source_hidden": True}
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -44,6 +44,7 @@ def student_edition(notebook):
             has_blank |= keep
             cell.source = stub(cell.source)
             cell.outputs, cell.execution_count = [], None
+            cell.metadata.pop("jupyter", None)  # a solution is folded, a blank not
         else:
             keep = True
         if keep:

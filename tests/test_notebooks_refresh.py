@@ -12,6 +12,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import refresh_notebooks
 from refresh_notebooks import (
     drop_scenes,
+    fold_solutions,
     join_streams,
     numbered,
     settled,
@@ -144,3 +145,18 @@ def test_a_cell_that_fails_is_an_error(page):
 
     with pytest.raises(Exception, match="ZeroDivisionError"):
         refresh_notebooks.main([str(page)])
+
+
+def test_jupyterlab_folds_the_code_of_a_solution_and_no_other():
+    cells = [
+        new_code_cell("1"),
+        new_markdown_cell("```{solution-start} ex-1-1\n:class: dropdown\n```"),
+        new_code_cell("2"),
+        new_markdown_cell("```{solution-end}\n```"),
+        new_code_cell("3"),
+    ]
+    fold_solutions(cells)
+
+    folded = {"outputs_hidden": True, "source_hidden": True}
+    assert cells[2].metadata == {"jupyter": folded}
+    assert cells[0].metadata == cells[4].metadata == {}

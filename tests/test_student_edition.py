@@ -74,6 +74,7 @@ def test_text_of_solutions_is_left_out_and_the_rest_is_kept():
 def test_cells_of_a_solution_are_stubs_or_left_out():
     given = new_code_cell("print(1)", outputs=[])
     blank = new_code_cell("y = 2  # blank\ncheck('ex-1-1', y)", execution_count=3)
+    blank.metadata["jupyter"] = {"source_hidden": True}
     blank.outputs = [nbformat.v4.new_output("stream", text="right")]
     cells = [given, new_markdown_cell(BEFORE), blank, new_code_cell("print(y)")]
 
@@ -88,6 +89,7 @@ def test_cells_of_a_solution_are_stubs_or_left_out():
         "## Next",
     ]
     assert edition.cells[2].outputs == []
+    assert edition.cells[2].metadata == {}
     assert blank.outputs, "the full edition is not touched"
 
 
