@@ -77,14 +77,16 @@ def test_the_papers_counts_and_numbers_are_marked(studio):
     for building, counts in page.evaluate("abstransfer.PAPER").items():
         for row in ROWS:
             assert counts[row] == PAPER[building][row]
-    mark = studio.root.get_by_text("The counts of the paper's source")
+    mark = studio.root.get_by_text("Cells, rooms and goals as in the paper's source")
 
     assert rows["ND"][1] == "\u221244.61"
     assert mark.is_visible()
     studio.pick("Tool", "Goal").click_cell(0)
     assert mark.count() == 0
     studio.click("The target")
-    assert studio.root.get_by_text("The counts of the paper's target").is_visible()
+    assert studio.root.get_by_text(
+        "Cells, rooms and goals as in the paper's target"
+    ).is_visible()
 
 
 @pytest.mark.parametrize("cell", [CORRIDOR, 0, 34, 16])
@@ -186,7 +188,9 @@ def test_by_keyboard_alone_to_the_goal_and_a_new_door(studio):
     closing = studio.closing
     studio.press("3", "Shift+ArrowRight")
 
-    assert re.match(r"The goal, after \d+ steps: a return of −\d+\.\d\d\.", closing)
+    said = re.match(r"The goal, after (\d+) steps: a return of −(\d+\.\d\d)\.", closing)
+    paid = 100 * (1 - 0.99 ** int(said[1]))  # where it stood, and where it passed
+    assert said[2] == f"{paid:.2f}"
     assert studio.root.get_by_role("radio", name="Door").is_checked()
     assert text_of(studio) != SOURCE
     assert "door east" in studio.focused

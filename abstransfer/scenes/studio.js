@@ -108,7 +108,7 @@
         ];
         counts.replaceChildren(
           `${ui.list(parts.filter(Boolean))}; ${ui.count(cells * goals)} states. `,
-          name && !me.problem ? make("strong", {}, `✓ The counts of the paper's ${name}.`) : "",
+          name && !me.problem ? make("strong", {}, `✓ Cells, rooms and goals as in the paper's ${name}.`) : "",
         );
         bars.set(at.ROWS.map((row) => ({
           name: rows[row], arm: row, value: found?.row[row] ?? null, mark: marks[row], lit: row === scene.state.show,

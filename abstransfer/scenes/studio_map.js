@@ -78,7 +78,7 @@
       const next = a < 0 || slips ? cell : tasks.neighbors[4 * cell + d];
       const r = tasks.reward[next];
       steps.push({ cell, d, a, next, r, slips: slips && a >= 0 });
-      total += weight * r;
+      total += weight * tasks.reward[cell]; // a state pays on its own account, as in its value
       weight *= tasks.gamma;
       cell = next;
     }
