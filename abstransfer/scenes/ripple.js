@@ -39,7 +39,7 @@
         label: "The largest error of a cell, by sweep", height: 190,
         x: { label: "sweeps", min: 0 },
         // In powers of ten: the last hundredths take longest.
-        y: { label: "largest error of a cell (each line a tenth of the one above)", format: (y) => `${Number((10 ** y).toPrecision(1))}`, min: -2.5, max: 2 },
+        y: { label: "largest error of a cell (each line a hundredth of the one above)", format: (y) => `${Number((10 ** y).toPrecision(1))}`, min: -2.5, max: 2 },
       });
       const arrows = scene.toggle("arrows", { label: "Best actions, as arrows; a frame where there is more than one" });
       scene.add(
