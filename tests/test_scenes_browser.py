@@ -226,6 +226,13 @@ def test_play_and_pause(microscope):
     assert microscope.step == at
 
 
+def test_a_reset_ends_playing(microscope):
+    microscope.click("To the start").click("Play").click("Reset")
+    microscope.root.get_by_role("button", name="Play", exact=True).wait_for()
+
+    assert microscope.step == 111
+
+
 # State
 
 

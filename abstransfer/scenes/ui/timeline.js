@@ -23,7 +23,6 @@
         drawn("path", { d: ICONS[kind] }));
     const iconButton = (kind, label, act) => button(icon(kind), act, { label });
     let timer = null;
-    let from = null; // when playing began: { time, t }
     let perSecond = speeds[Math.min(1, speeds.length - 1)];
 
     const bounds = () => scene.limits[name];
@@ -38,10 +37,13 @@
     function play() {
       if (now() >= bounds()[1]) go(bounds()[0]);
       const rate = scene.calm ? Math.min(perSecond, CALM) : perSecond;
-      from = { time: performance.now(), t: now() };
+      const [time, first] = [performance.now(), now()];
+      let last = first;
       timer = setInterval(() => {
-        const t = from.t + Math.floor((rate * (performance.now() - from.time)) / 1000);
-        if (t !== now()) go(t);
+        if (now() !== last) return pause(); // a reset, a link or Python moved it
+        const t = first + Math.floor((rate * (performance.now() - time)) / 1000);
+        if (t !== last) go(t);
+        last = now();
         if (t >= bounds()[1]) pause();
       }, 1000 / Math.min(rate, FRAME));
       showPlay();
