@@ -45,6 +45,9 @@ NOT_PROSE = [
         r"^(?:\d+\. |\*\*\d+\.\*\* .*$|`{3,}\{dropdown\}.*$)", re.M
     ),  # lists, quiz
 ]
+# Of a drawn picture only its description tells numbers: marks of an axis are none.
+DRAWN = re.compile(r"<svg[^>]*?(?: aria-label=\"([^\"]*)\"[^>]*)?>.*?</svg>", re.S)
+TAG = re.compile(r"<[^>]*>")
 LECTURER = re.compile(r"^(`{3,})\{admonition\} For the lecturer.*?^\1", re.M | re.S)
 ABOUT = re.compile(r"\b(?:about|nearly|almost|roughly|some) $")  # within a twentieth
 SCALES = {"million": 1e6, "thousand": 1e3}
@@ -105,7 +108,7 @@ def shown_numbers(notebook: dict) -> list[float]:
             parts = [output.get("text", ""), *data.values()]
             texts += ["".join(part) for part in parts if not isinstance(part, dict)]
         texts.append(json.dumps(cell["metadata"].get("mystnb", {})))
-    texts = [re.sub(r"<[^>]*>", " ", text).replace("−", "-") for text in texts]
+    texts = [TAG.sub(" ", DRAWN.sub(r" \1 ", text)).replace("−", "-") for text in texts]
     found = {value for text in texts for _, value, _ in numbers(text, ANY)}
     return sorted(found)
 
