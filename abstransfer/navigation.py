@@ -17,7 +17,7 @@ from .mdp import MDP
 
 KINDS = ("see_empty_space", "see_door_far", "see_room", "see_corridor")
 ORIENTATIONS = ("head_to_goal", "opposite_to_goal")
-#: What the robot may see, and on which side: the names of the eight actions.
+#: The names of the eight actions, which are what the robot may see and on which side.
 LABELS = tuple(f"{kind}_{side}" for side in ORIENTATIONS for kind in KINDS)
 ACTIONS = LABELS  # go to what I see
 #: The eleven yes-or-no facts; bit f of an abstract state is feature f.
