@@ -13,6 +13,11 @@ from sphinx.util import logging
 
 from abstransfer import _scene_files
 
+# The theme's scroll spy would read all links of a page, and fail at a link to a moment
+# of a scene: it shall read those of the page's contents, as it means to.
+SPY = """addEventListener("DOMContentLoaded", () => {
+  document.body.dataset.bsTarget = "#pst-page-toc-nav";
+});"""
 LIMIT = 150_000  # bytes of script before compression
 logger = logging.getLogger(__name__)
 
@@ -42,6 +47,7 @@ def load_files(app, pagename, templatename, context, doctree):
 
 
 def setup(app):
+    app.add_js_file(None, body=SPY)
     app.connect("html-page-context", load_files)
     app.connect("build-finished", write_files)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
