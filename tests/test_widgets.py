@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import traitlets
 from bs4 import BeautifulSoup
+from conftest import ROOT
 
 from abstransfer import _scene_files, maps, widgets
 from abstransfer._stills import building_svg
@@ -220,3 +221,11 @@ def test_a_rule_may_not_write_into_the_values_or_return_nonsense():
 def test_widgets_are_not_loaded_with_the_package():
     program = "import abstransfer, sys; assert 'anywidget' not in sys.modules"
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_every_scene_is_in_the_reference():
+    reference = (ROOT / "book" / "api.md").read_text(encoding="utf-8")
+    section = reference.split("automodule:: abstransfer.widgets")[1].split("```")[0]
+    listed = [line.split(":: ")[1] for line in section.split("\n") if ":: " in line]
+
+    assert sorted(listed[1:]) == sorted(widgets.__all__)  # the first: currentmodule
