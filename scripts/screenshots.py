@@ -42,8 +42,7 @@ def main() -> int:
             tab = chromium.new_page(viewport=size, color_scheme=color)
             for page in pages:
                 tab.goto((HTML / f"{page}.html").as_uri())
-                tab.wait_for_timeout(1000)
-                tab.wait_for_timeout(500)  # formulas are drawn after loading
+                tab.wait_for_timeout(1500)  # formulas are drawn after loading
                 target = options.folder / f"{page}-{width}-{color}.png"
                 tab.screenshot(path=target, full_page=True)
                 print(target)
