@@ -39,6 +39,14 @@ def taught(tab):
     return tab.settle()
 
 
+def told(tab):
+    """Wait until the closing sentence says what became of the bet."""
+    tab.page.wait_for_function(
+        "() => /You bet on/.test(document.querySelector('.ab-closing').textContent)"
+    )
+    return tab.settle()
+
+
 def goals(tab, beta):
     return tab.rows()[f"{beta:.2f}"][2]
 
@@ -87,7 +95,7 @@ def test_a_bet_comes_first_and_is_answered(dial):
     bet(dial, "at Prob, β = 1")
     assert five.is_enabled()
     five.click()
-    dial.page.wait_for_function("() => /You bet on/.test(document.body.textContent)")
+    told(dial)
     found = {beta: number(goals(dial, beta)) for beta in (0, 0.5, 1, 2, 8)}
     best = max(found, key=found.get)
 
@@ -109,6 +117,7 @@ def test_by_keyboard_alone(dial):
         if dial.page.evaluate("document.activeElement.type") == "range":
             dial.press("ArrowRight", "ArrowRight")
     dial.press("Enter")
+    told(dial)
     taught(dial)
 
     assert "At β = 1.50" in dial.root.inner_text()

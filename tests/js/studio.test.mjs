@@ -71,7 +71,7 @@ test("a walk moves nine times in ten, pays for every step, and ends at the goal"
   assert.ok(isOver);
   assert.equal(cell, source.goals[0]);
   const n = steps.length;
-  assert.ok(Math.abs(total + (1 - 0.99 ** (n - 1)) / 0.01) < 1e-9);
+  assert.ok(Math.abs(total + (1 - 0.99 ** n) / 0.01) < 1e-9);
   const walk = follow(tasks, 5 * 15 + 8, "EW".repeat(500));
   const slips = walk.steps.filter((each) => each.slips).length;
   assert.ok(slips > 60 && slips < 140, `${slips} of 1000`);
