@@ -117,7 +117,7 @@ def test_five_quick_changes_learn_the_last_tau_only(show, slider):  # noqa: F811
     scene = show(slider)
     handle = scene.slider("Advice until step")
     handle.evaluate(  # at once: a short run could end between two calls from Python
-        """slider => [1e6, 20e6, 4e6, 12e6].forEach((tau) => {
+        """slider => [1e6, 20e6, 4e6, 12e6, 5e6].forEach((tau) => {
             slider.value = tau;
             slider.dispatchEvent(new Event("input", { bubbles: true }));
         })"""
