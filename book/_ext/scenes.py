@@ -42,7 +42,8 @@ def write_files(app, exception):
 def load_files(app, pagename, templatename, context, doctree):
     """Let a page that holds a scene load the script and the style."""
     if 'class="abstransfer-scene"' in context.get("body", ""):
-        app.add_js_file("scenes.js", loading_method="defer")
+        # Before MathJax, for which a reader of formulas can wait.
+        app.add_js_file("scenes.js", loading_method="defer", priority=100)
         app.add_css_file("scenes.css")
 
 
