@@ -17,7 +17,7 @@ Q       ``q``                 (S, A), expected V of the state reached
 ======  ====================  =================================================
 """
 
-from .absprob_pi import (
+from .builders.deduced import (
     Climb,
     absprob_pi,
     abstract_gradient,

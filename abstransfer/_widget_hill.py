@@ -10,7 +10,7 @@ import traitlets
 from ._stills_hill import Landscape, hill_svg
 from ._style import number
 from ._widget import Scene, Still
-from .absprob_pi import Climb, absprob_pi
+from .builders.deduced import Climb, absprob_pi
 from .mdp import MDP
 from .solvers import evaluate_policy
 

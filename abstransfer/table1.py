@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from .absprob_pi import absprob_pi
+from .builders.deduced import absprob_pi
 from .navigation import NavigationTasks
 from .policies import (
     break_ties,
@@ -56,7 +56,7 @@ def abstract_policies(
     ties, rng
         As for :func:`~abstransfer.policies.break_ties`.
     progress
-        As for :func:`~abstransfer.absprob_pi.absprob_pi`.
+        As for :func:`~abstransfer.builders.deduced.absprob_pi`.
 
     Raises
     ------

@@ -14,7 +14,7 @@ import pytest
 from conftest import ROOT
 
 import abstransfer as at
-from abstransfer.absprob_pi import absprob_pi, abstract_gradient, natural_ascent
+from abstransfer.builders.deduced import absprob_pi, abstract_gradient, natural_ascent
 from abstransfer.learning import q_learning
 from abstransfer.navigation import FEATURES
 from abstransfer.policies import beta_policy

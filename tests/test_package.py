@@ -172,5 +172,5 @@ def test_table_1_needs_nothing_heavy():
         "table1(navigation_tasks(parse_map('+-+-+\\n|.d*|\\n+-+-+')))"
     )
 
-    assert "abstransfer.absprob_pi" in loaded
+    assert "abstransfer.builders.deduced" in loaded
     assert not HEAVY & loaded

@@ -9,7 +9,7 @@ from run_scenes import show  # noqa: F401 (a fixture)
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
 from abstransfer._widget_hill import HALL, LAST, RHO, STARTS, Hill, page
-from abstransfer.absprob_pi import absprob_pi, abstract_gradient
+from abstransfer.builders.deduced import absprob_pi, abstract_gradient
 
 LAND = "(abstransfer.land)"
 

@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .mdp import MDP, check_policy
-from .policies import uniform_policy
-from .solvers import TIE, action_values, factorize, transition_matrix
+from ..mdp import MDP, check_policy
+from ..policies import uniform_policy
+from ..solvers import TIE, action_values, factorize, transition_matrix
 
 
 class Climb(NamedTuple):

@@ -1,0 +1,1 @@
+"""The three builders of an abstract policy."""
