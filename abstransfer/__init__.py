@@ -24,6 +24,7 @@ from .builders.deduced import (
     natural_ascent,
     random_starts,
 )
+from .driving import abstract_policies, format_table1, table1
 from .maps import Map, parse_map, read_map, tile_map
 from .mdp import MDP
 from .navigation import FEATURES, LABELS, NavigationTasks, describe, navigation_tasks
@@ -45,7 +46,6 @@ from .solvers import (
     transition_matrix,
     value_iteration,
 )
-from .table1 import abstract_policies, format_table1, table1
 
 __version__ = "0.1.0"
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ._style import SMALL, WIDTH, arm_style, label_gap, new_axes, number, spread
-from .table1 import PAPER, ROWS
+from .driving import PAPER, ROWS
 
 BUILDINGS = {"source": "source building", "target": "target building"}
 
@@ -19,7 +19,7 @@ def plot_ladder(result: Mapping, ax=None, *, paper: Mapping | None = PAPER, rows
     Parameters
     ----------
     result : dict
-        From :func:`~abstransfer.table1.table1`: ``source`` and perhaps
+        From :func:`~abstransfer.driving.table1`: ``source`` and perhaps
         ``target``, each a dict from policy to mean value.
     ax : matplotlib Axes, optional
     paper : dict, optional

@@ -15,10 +15,10 @@ from ._stills_dial import Panel, panels_svg
 from ._style import number
 from ._widget import MapTrait, Scene, Still
 from ._widget_dial import BETAS, LAST, STEP, _driving, _policy
+from .driving import PAPER
 from .maps import Map
 from .navigation import LABELS, navigation_tasks
 from .policies import break_ties, count_votes
-from .table1 import PAPER
 
 WINNER = LAST + STEP  # how the browser writes an infinite beta
 PAGES = {"ND": 0.0, "Prob": 1.0, "Winner": np.inf}

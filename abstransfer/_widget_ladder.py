@@ -12,9 +12,9 @@ from ._stills_ladder import ladders_svg
 from ._style import arm_style, number
 from ._widget import MapTrait, Still
 from ._widget_drawn import DrawnScene
+from .driving import BUILDERS, PAPER, ROWS, table1
 from .maps import Map, read_map
 from .navigation import navigation_tasks
-from .table1 import BUILDERS, PAPER, ROWS, table1
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
 SIDES = ("source", "target")

@@ -12,11 +12,11 @@ from ._stills_project import bars_svg, dots_svg
 from ._style import number
 from ._widget import MapTrait, Still
 from ._widget_drawn import DrawnScene
+from .driving import BUILDERS
 from .navigation import FEATURES
 from .project import ADVICE, GUIDES, Setup, drives, run
 from .project_card import card_text
 from .race import Race
-from .table1 import BUILDERS
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
 NAMES = {

@@ -9,10 +9,10 @@ from ._stills import building_svg
 from ._style import arm_style, number
 from ._widget import MapTrait, Still
 from ._widget_drawn import DrawnScene, read_drawing
+from .driving import BUILDERS, PAPER, ROWS, abstract_policies, column
 from .maps import Map, read_map
 from .navigation import NavigationTasks, navigation_tasks
 from .solvers import evaluate_policy, optimal_values
-from .table1 import BUILDERS, PAPER, ROWS, abstract_policies, column
 
 TOOLS = ("walk", "wall", "door", "room", "corridor", "goal")
 SHOWN = ("plain", "states", "nd", "prob", "grad", "optimal")

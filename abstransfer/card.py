@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
+from .driving import column
 from .race import Race
 from .reading import digest
 from .stats import Interval, mean_interval, relative_gain
-from .table1 import column
 
 
 @dataclass(frozen=True)

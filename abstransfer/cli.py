@@ -15,9 +15,9 @@ from functools import partial
 
 from ._cli_experiment import add_experiment, add_figures
 from ._cli_learn import add_learn
+from .driving import format_table1, table1
 from .maps import read_map
 from .navigation import navigation_tasks
-from .table1 import format_table1, table1
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -13,6 +13,7 @@ import numpy as np
 
 from .arms import STRATEGIES
 from .curves import SMOOTH, asymptotic_level, critical_point, rises
+from .driving import BUILDERS
 from .results import Results
 from .stats import (
     LEVEL,
@@ -22,7 +23,6 @@ from .stats import (
     paired_difference,
     relative_gain,
 )
-from .table1 import BUILDERS
 from .verdicts import Finding, judge
 
 MARGIN = 0.01  # "no better": by less than 1 %, about the spread between runs

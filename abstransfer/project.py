@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from .arms import PAPER_STEPS
+from .driving import BUILDERS, abstract_policies, column
 from .maps import Map, read_map
 from .navigation import FEATURES, NavigationTasks, navigation_tasks
 from .policies import uniform_policy
 from .race import Race, race
 from .solvers import evaluate_policy
-from .table1 import BUILDERS, abstract_policies, column
 
 GUIDES = (*BUILDERS, "eager", "rand")
 ADVICE = ("source", "target", "own")

@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .driving import column
 from .maps import parse_map
 from .navigation import FEATURES, navigation_tasks
 from .plan import SEED
 from .project import GUIDES, Setup, drives, run, scale
 from .race import Race
-from .table1 import column
 
 
 class Verified(NamedTuple):

@@ -16,11 +16,11 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ._paths import DATA
+from .driving import BUILDERS, abstract_policies
 from .maps import Map, read_map
 from .navigation import NavigationTasks, navigation_tasks
 from .policies import restrict_policy
 from .solvers import evaluate_policy
-from .table1 import BUILDERS, abstract_policies
 
 GUIDES = ("rand", *BUILDERS)
 

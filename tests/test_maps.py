@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import map_texts
 
-from abstransfer import navigation_tasks, parse_map, read_map, table1, tile_map
+from abstransfer import driving as table1
+from abstransfer import navigation_tasks, parse_map, read_map, tile_map
 from abstransfer._paths import DATA
 
 SHIPPED = ("source", "target", "target_b", "target_c", "target_d")

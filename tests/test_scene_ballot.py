@@ -12,8 +12,8 @@ from traitlets import TraitError
 from abstransfer import maps
 from abstransfer._widget_ballot import PAGES, WINNER
 from abstransfer._widget_dial import BETAS
+from abstransfer.driving import PAPER
 from abstransfer.navigation import LABELS, navigation_tasks
-from abstransfer.table1 import PAPER
 from abstransfer.widgets import Ballot
 
 SMALL = maps.read_map("source")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
+from abstransfer.driving import BUILDERS, PAPER, ROWS
 from abstransfer.maps import read_map
-from abstransfer.table1 import BUILDERS, PAPER, ROWS
 from abstransfer.widgets import Ladder
 
 SOURCE = str(read_map("source"))

@@ -7,9 +7,9 @@ import pytest
 import traitlets
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
+from abstransfer.driving import PAPER, ROWS, abstract_policies, column
 from abstransfer.maps import parse_map, read_map, tile_map
 from abstransfer.navigation import navigation_tasks
-from abstransfer.table1 import PAPER, ROWS, abstract_policies, column
 from abstransfer.widgets import Studio
 
 SOURCE = str(read_map("source"))

@@ -13,7 +13,7 @@ from abstransfer import (
     table1,
     uniform_policy,
 )
-from abstransfer.table1 import PAPER, ROWS, column
+from abstransfer.driving import PAPER, ROWS, column
 
 # What this reading gives, by row: source, target (design 1.7).
 PINNED = {

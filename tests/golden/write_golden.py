@@ -18,9 +18,9 @@ import numpy as np
 
 import abstransfer as at
 from abstransfer.arms import ARMS, TAUS
+from abstransfer.driving import PAPER, abstract_policies
 from abstransfer.learning import q_learning
 from abstransfer.maps import DIRECTIONS
-from abstransfer.table1 import PAPER, abstract_policies
 
 HERE = Path(__file__).parent
 SHIPPED = ("source", "target", "target_b", "target_c", "target_d")
