@@ -7,14 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import traitlets
 
-from . import _kernels
 from ._cells import count
-from ._runs import RunState, set_up
-from ._settings import Settings
 from ._stills import building_svg
 from ._style import number
 from ._widget import MapTrait, Scene, Still
-from .learning import Learner, q_learning
+from .learning import Learner, loop, q_learning
+from .learning._runs import RunState, set_up
+from .learning.settings import Settings
 from .navigation import NavigationTasks, navigation_tasks
 
 TWO_ROOMS = """\
@@ -173,7 +172,7 @@ def own_trace(tasks: NavigationTasks, q0: float, rng, update: Callable) -> list[
         before = q[:, : tasks.mdp.n_actions].copy()
         record = run.who[t - 1 :], run.what[t - 1 :]
         world, guide, rule = setup.world, setup.guide, setup.rule
-        _kernels.learn(t, t, world, guide, rule, run.plain, *record)
+        loop.learn(t, t, world, guide, rule, run.plain, *record)
         s, a, how, s_next = map(int, run.who[t - 1])
         reward = float(run.what[t - 1, 0])
         after = float(update(before, s, a, reward, s_next, rule.alpha, rule.gamma))

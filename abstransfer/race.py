@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._settings import whole
 from .learning import q_learning_runs
+from .learning.settings import whole
 from .navigation import NavigationTasks
 from .plan import SEED
 from .policies import restrict_policy

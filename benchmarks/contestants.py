@@ -19,8 +19,8 @@ import peers
 import yardstick
 
 from abstransfer import navigation_tasks, read_map, uniform_policy
-from abstransfer._runs import Together, set_up
-from abstransfer._settings import Settings
+from abstransfer.learning._runs import Together, set_up
+from abstransfer.learning.settings import Settings
 
 STEPS = 5_000_000  # a round of a compiled loop; six rounds are a run of the paper
 SLOW_STEPS = 20_000  # a round of an interpreted one

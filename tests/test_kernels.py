@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 
 from abstransfer import MDP, navigation_tasks, read_map
-from abstransfer._packing import (
+from abstransfer.learning import Learner, q_learning_runs
+from abstransfer.learning._rng import fill, next_word, seed_state
+from abstransfer.learning._simd import count_below, put
+from abstransfer.learning._tables import (
     _packed,
     distinct,
     integer_bounds,
@@ -17,9 +20,6 @@ from abstransfer._packing import (
     pack,
     pack_world,
 )
-from abstransfer._rng import fill, next_word, seed_state
-from abstransfer._rows import count_below, put
-from abstransfer.learning import Learner, q_learning_runs
 
 ROOT = Path(__file__).parents[1]
 PHASES = {

@@ -28,7 +28,7 @@ ORDER = [
     "absprob_pi",
     "table1",
     "_rng",
-    "_kernels",
+    "learning",
     "learning",
     "stats",
     "experiment",

@@ -14,10 +14,10 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ._kernels import Guide, World
+from ..mdp import MDP
 from ._rng import WORD
-from ._rows import MIDDLE, WIDTH
-from .mdp import MDP
+from ._simd import MIDDLE, WIDTH
+from .loop import Guide, World
 
 
 class Tables(NamedTuple):

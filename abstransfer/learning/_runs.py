@@ -11,20 +11,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import _fast, _kernels
-from ._packing import FastGuide, Tables, make_guide, pack, pack_guide
+from . import _fast, loop
 from ._rng import STARTS, next_word, seed_state
-from ._rows import WIDTH
-from ._settings import Settings
+from ._simd import WIDTH
+from ._tables import FastGuide, Tables, make_guide, pack, pack_guide
+from .settings import Settings
 
 
 class Setup(NamedTuple):
     """What does not change, shared by all runs of a learner."""
 
     settings: Settings
-    rule: _kernels.Rule
-    world: _kernels.World
-    guide: _kernels.Guide
+    rule: loop.Rule
+    world: loop.World
+    guide: loop.Guide
     tables: Tables | None  # None: too large a world for the fast loop
     fast_guide: FastGuide | None
 
@@ -37,7 +37,7 @@ def set_up(settings: Settings) -> Setup:
     if policy is None:  # any will do: without a guide, tau is 0
         policy = np.full((mdp.n_states, mdp.n_actions), 1 / mdp.n_actions)
     guide = make_guide(policy, mdp.terminal)
-    rule = _kernels.Rule(
+    rule = loop.Rule(
         settings.alpha,
         settings.gamma,
         settings.explore,
@@ -61,7 +61,7 @@ class RunState:
         ]
         place = np.array([start, settings.max_episode])
         self.ended = np.zeros(2, np.int64)
-        self.plain = _kernels.Run(self.q, state, place, self.ended)
+        self.plain = loop.Run(self.q, state, place, self.ended)
         if setup.tables:
             allowed = mdp.allowed @ (1 << np.arange(mdp.n_actions))
             code = np.zeros((mdp.n_states, 2), np.uint16)
@@ -111,7 +111,7 @@ class Together:
         settings, rule, world, guide, tables, _ = self.setup
         for run in self.runs:
             record = run.who[first - 1 :], run.what[first - 1 :]
-            _kernels.learn(first, last, world, guide, rule, run.plain, *record)
+            loop.learn(first, last, world, guide, rule, run.plain, *record)
             if tables:
                 _fast.refresh(settings.mdp.terminal, tables, rule, run.fast)
 

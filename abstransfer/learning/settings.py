@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .mdp import MDP, check_policy
+from ..mdp import MDP, check_policy
 
 STRATEGIES = ("hard", "soft")
 MOST_STEPS = 1 << 36  # so that 65536 times a number of steps is exact in a double

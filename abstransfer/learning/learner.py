@@ -17,9 +17,9 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from ..mdp import MDP
 from ._runs import RunState, Together, say_if_compiling, set_up
-from ._settings import QLearningResult, Settings, Trace, whole
-from .mdp import MDP
+from .settings import QLearningResult, Settings, Trace, whole
 
 __all__ = ["Learner", "QLearningResult", "Trace", "q_learning", "q_learning_runs"]
 

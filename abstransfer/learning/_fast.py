@@ -1,5 +1,5 @@
 """
-The learning loop made fast: equal to ``_kernels.learn`` to the bit.
+The learning loop made fast: equal to ``loop.learn`` to the bit.
 
 What it does differently, each measured (benchmarks/NOTES.md):
 
@@ -22,9 +22,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._kernels import CUTS, GOALS
 from ._rng import STARTS, STEPS, WORD, compiled, fill, inlined, next_word
-from ._rows import MIDDLE, count_below, put
+from ._simd import MIDDLE, count_below, put
+from .loop import CUTS, GOALS
 
 BLOCK = 256  # steps whose words are drawn at once: 4 KB, stays in the nearest cache
 
@@ -35,7 +35,7 @@ class FastRun(NamedTuple):
     q: np.ndarray  # (8 S,) values, -inf where there is no action
     target: np.ndarray  # (S,) reward + gamma * largest value: what arriving gives
     code: np.ndarray  # (2 S,) uint16: of [2s] the best actions, [2s + 1] the allowed
-    rng: np.ndarray  # (2, 4) as in _kernels.Run, and so the next two
+    rng: np.ndarray  # (2, 4) as in loop.Run, and so the next two
     place: np.ndarray  # (2,)
     ended: np.ndarray  # (2,)
     words: np.ndarray  # (2 BLOCK,) int64
@@ -49,7 +49,7 @@ def guided(s, field, guide):
 
 @inlined
 def choose(t, s, luck, guide, tau, tables, rule, code):
-    """Return an action; the same choice as _kernels.choose makes."""
+    """Return an action; the same choice as loop.choose makes."""
     mode, field = luck >> 16, luck & 0xFFFF
     if guide is not None and tau is None:
         return guided(s, field, guide)
