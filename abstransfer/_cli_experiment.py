@@ -8,8 +8,8 @@ import sys
 
 from ._cli_learn import MAP_HELP, add_reading, count, option, progress_bar, reading_of
 from ._paths import DATA
-from .arms import SCALES
-from .plan import SEED
+from .experiments.arms import SCALES
+from .experiments.plan import SEED
 
 
 def add_experiment(commands) -> None:
@@ -61,7 +61,7 @@ def add_figures(commands) -> None:
 
 
 def _run_experiment(arguments) -> int:
-    from .experiment import run_experiment
+    from .experiments.run import run_experiment
     from .reproduction import Experiment, arms_of, reproduce
 
     if arguments.everything and (arguments.reward, arguments.target) != (

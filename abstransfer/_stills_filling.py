@@ -10,7 +10,7 @@ import numpy as np
 from ._stills import paint
 from ._stills_runs import MARKS, _line, _text, short
 from ._style import PALETTE, arm_style
-from .stats import Interval
+from .experiments.stats import Interval
 
 WIDTH, ROW = 300, 26  # units of the drawing
 LEFT, RIGHT, TOP = 98, 44, 16  # margins

@@ -11,9 +11,9 @@ from ._stills_dial import Panel, panels_svg
 from ._style import number
 from ._widget import Still
 from ._widget_runs import RunScene
-from .arms import PAPER_STEPS, STRATEGIES, Arm
+from .experiments.arms import PAPER_STEPS, STRATEGIES, Arm
+from .experiments.problem import Reading, build_guides, executed_values
 from .policies import beta_policy
-from .reading import Reading, build_guides, executed_values
 
 LAST, STEP = 8.0, 0.25
 BETAS = tuple(float(beta) for beta in np.arange(0, LAST + STEP, STEP))

@@ -8,10 +8,10 @@ import traitlets
 
 from ._stills_filling import boxes_svg
 from ._widget import Scene, Still
-from .arms import ARMS
 from .claims import CLAIMS
-from .results import read_results, stored_results
-from .stats import mean_interval
+from .experiments.arms import ARMS
+from .experiments.results import read_results, stored_results
+from .experiments.stats import mean_interval
 from .stopping import (
     FIRST_LOOK,
     KEYS,

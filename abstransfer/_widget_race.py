@@ -9,9 +9,9 @@ from ._stills import CELL, building_svg, paint
 from ._stills_runs import curves_svg
 from ._widget import Still
 from ._widget_runs import NAMES, PolicyTrait, RunScene, scaled
-from .arms import ARMS, PAPER_STEPS, Arm
+from .experiments.arms import ARMS, PAPER_STEPS, Arm
+from .experiments.problem import target_tasks
 from .learning import q_learning
-from .reading import target_tasks
 
 FIRST = 1000  # steps that can be looked at
 RACERS = ("none", "rand-hard", "prob-hard", "nd-hard")

@@ -8,11 +8,11 @@ import numpy as np
 import traitlets
 
 from ._widget import ArrayTrait, MapTrait, Scene
-from .arms import PAPER_STEPS, SCALES, Arm, Scale
+from .experiments.arms import PAPER_STEPS, SCALES, Arm, Scale
+from .experiments.plan import SEED, STREAMS
+from .experiments.problem import Reading, build_guides, target_tasks
+from .experiments.results import read_results
 from .learning import q_learning
-from .plan import SEED, STREAMS
-from .reading import Reading, build_guides, target_tasks
-from .results import read_results
 
 WINDOWS = 60  # of a run
 RUNS = 50  # of the stored experiments

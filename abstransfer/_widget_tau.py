@@ -7,7 +7,7 @@ import traitlets
 from ._stills_runs import curves_svg
 from ._widget import Still
 from ._widget_runs import NAMES, RunScene, scaled
-from .arms import ARMS, PAPER_STEPS, STRATEGIES, Arm
+from .experiments.arms import ARMS, PAPER_STEPS, STRATEGIES, Arm
 
 GUIDES = ("nd", "prob", "grad", "rand")
 

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from .driving import column
+from .experiments.problem import digest
+from .experiments.stats import Interval, mean_interval, relative_gain
 from .race import Race
-from .reading import digest
-from .stats import Interval, mean_interval, relative_gain
 
 
 @dataclass(frozen=True)

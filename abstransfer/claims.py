@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .experiments.results import Results
 from .findings import (
     all_beat_q_learning,
     critical_point_exists,
@@ -21,7 +22,6 @@ from .findings import (
     random_is_late_but_competes,
     soft_beats_hard,
 )
-from .results import Results
 from .verdicts import Finding
 
 

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
+from .experiments.problem import GUIDES
+from .experiments.results import RECORD, Results, load_results
+from .experiments.stats import mean_interval
+from .experiments.tuning import tune
 from .ledger import Entry, ledger
 from .plotting import figure, plot_boxes, plot_curves, plot_tau
-from .reading import GUIDES
-from .results import RECORD, Results, load_results
-from .stats import mean_interval
 from .tables import (
     curves_table,
     experiment_name,
@@ -27,7 +28,6 @@ from .tables import (
     to_markdown,
     totals_table,
 )
-from .tuning import tune
 
 Ledgers = Mapping[str, tuple[Entry, ...]]  # by experiment
 SCALES = {"ratio": (100, " %"), "steps": (1e-6, " million steps")}
@@ -186,7 +186,7 @@ def effect_text(finding) -> str:
     """
     Return an effect with its interval, in its unit.
 
-    >>> from abstransfer.stats import Interval
+    >>> from abstransfer.experiments.stats import Interval
     >>> from abstransfer.verdicts import HOLDS, Finding
     >>> effect_text(Finding("", Interval(0.25, 0.24, 0.267), "ratio", HOLDS))
     '+25.0 % [24.0, 26.7]'

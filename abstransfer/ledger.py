@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .claims import CLAIMS, Claim
-from .results import Results
+from .experiments.results import Results
 from .verdicts import Finding, combine
 
 
@@ -31,7 +31,7 @@ def ledger(results: Results, *, rng=0) -> tuple[Entry, ...]:
     Parameters
     ----------
     results : Results
-        From :func:`~abstransfer.experiment.run_experiment` with ARMS, or with
+        From :func:`~abstransfer.experiments.run.run_experiment` with ARMS, or with
         the same arms and other tau.
     rng : int, SeedSequence or Generator
         Draws the resamples of the intervals.

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .arms import PAPER_STEPS
 from .driving import BUILDERS, abstract_policies, column
+from .experiments.arms import PAPER_STEPS
 from .maps import Map, read_map
 from .navigation import FEATURES, NavigationTasks, navigation_tasks
 from .policies import uniform_policy

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .driving import column
+from .experiments.plan import SEED
 from .maps import parse_map
 from .navigation import FEATURES, navigation_tasks
-from .plan import SEED
 from .project import GUIDES, Setup, drives, run, scale
 from .race import Race
 

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .experiments.plan import SEED
 from .learning import q_learning_runs
 from .learning.settings import whole
 from .navigation import NavigationTasks
-from .plan import SEED
 from .policies import restrict_policy
 
 

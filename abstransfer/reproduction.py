@@ -12,13 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from .arms import ARMS, Arm, tau_cells
-from .experiment import run_experiment
+from .experiments.arms import ARMS, Arm, tau_cells
+from .experiments.plan import SEED
+from .experiments.problem import Reading
+from .experiments.results import Results, load_results
+from .experiments.run import run_experiment
+from .experiments.tuning import tune, tuned_arms
 from .maps import read_map
-from .plan import SEED
-from .reading import Reading
-from .results import Results, load_results
-from .tuning import tune, tuned_arms
 
 
 class Experiment(NamedTuple):
@@ -83,7 +83,7 @@ def reproduce(
     Parameters
     ----------
     out, scale, seed, n_workers
-        As for :func:`~abstransfer.experiment.run_experiment`.
+        As for :func:`~abstransfer.experiments.run.run_experiment`.
     reading : Reading, optional
         What is not the paper's; reward and target are those of the experiment.
     n_runs : int, optional

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .claims import CLAIMS
+from .experiments.results import Results
+from .experiments.stats import LEVEL, RESAMPLES, Interval
 from .findings import MARGIN
-from .results import Results
-from .stats import LEVEL, RESAMPLES, Interval
 from .verdicts import UNDECIDED, Finding, combine, judge
 
 FIRST_LOOK = 5  # as in exercise 3 of page 9: before, intervals are far too narrow

@@ -19,14 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .arms import STRATEGIES, Arm, Scale
-from .experiment import run_experiment
+from .experiments.arms import STRATEGIES, Arm, Scale
+from .experiments.plan import SEED
+from .experiments.problem import Reading, build_guides
+from .experiments.results import Results
+from .experiments.run import run_experiment
 from .maps import read_map
 from .navigation import navigation_tasks
-from .plan import SEED
 from .policies import beta_policy, uniform_policy
-from .reading import Reading, build_guides
-from .results import Results
 
 TAU = {"hard": 3_500_000, "soft": 6_000_000}  # the paper's, of Prob
 BETAS = (0, 0.25, 0.5, 1, 2, 4, 8)
@@ -144,7 +144,7 @@ def run_studies(
 
     `n_runs` replaces that of each study, and `on_start` gets each study and
     returns its `on_progress`.  Other options: see
-    :func:`~abstransfer.experiment.run_experiment`.
+    :func:`~abstransfer.experiments.run.run_experiment`.
     """
     found = {}
     for study in studies:

@@ -12,23 +12,23 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from .arms import ARMS
-from .curves import (
+from .experiments.arms import ARMS
+from .experiments.curves import (
     asymptotic_level,
     critical_point,
     jumpstart,
     time_to_threshold,
 )
-from .ledger import Entry
-from .results import Results
-from .stats import (
+from .experiments.results import Results
+from .experiments.stats import (
     Interval,
     iqm_interval,
     mean_interval,
     probability_of_improvement,
     relative_gain,
 )
-from .tuning import Tuning
+from .experiments.tuning import Tuning
+from .ledger import Entry
 
 MILLION = 1_000_000
 

@@ -5,8 +5,8 @@ from functools import cache
 import pytest
 from scene_tab import SceneTab
 
+from abstransfer.experiments.problem import build_guides, target_tasks
 from abstransfer.learning import q_learning
-from abstransfer.reading import build_guides, target_tasks
 
 SHORT = 1_200_000  # steps of a run where its length does not matter
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from abstransfer.cli import main
-from abstransfer.results import load_results
+from abstransfer.experiments.results import load_results
 
 LEARN = ["learn", "--map", "source", "--steps", "1_500_000", "--window", "5e5"]
 PAGE = ["experiment", "--scale", "page", "--jobs", "2", "--target", "source"]
@@ -289,9 +289,9 @@ def test_a_worker_needs_less_than_500_mb():
     """Six runs in the target building at once, learned as a worker does."""
     script = (
         "import numpy as np\n"
-        "from abstransfer.arms import Scale\n"
-        "from abstransfer.reading import Reading, build_guides\n"
-        "from abstransfer.workers import Job, run_job\n"
+        "from abstransfer.experiments.arms import Scale\n"
+        "from abstransfer.experiments.problem import Reading, build_guides\n"
+        "from abstransfer.experiments.workers import Job, run_job\n"
         "reading = Reading()\n"
         "guide = build_guides(reading, ['nd'])['nd']\n"
         "seeds = tuple(np.random.SeedSequence(1).spawn(6))\n"
@@ -311,7 +311,7 @@ def test_only_what_needs_them_imports_numba_and_matplotlib():
     script = (
         "import sys\n"
         "from abstransfer.cli import main\n"
-        "import abstransfer.experiment, abstransfer.ledger, abstransfer.figures\n"
+        "import abstransfer.experiments.run, abstransfer.ledger, abstransfer.figures\n"
         "try: main(['experiment', '--help'])\n"
         "except SystemExit: pass\n"
         "slow = {'numba', 'matplotlib', 'tqdm', 'distributed'} & set(sys.modules)\n"

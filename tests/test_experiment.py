@@ -11,14 +11,20 @@ import numpy as np
 import pytest
 from conftest import unavailable
 
-from abstransfer import read_map, workers
-from abstransfer.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
-from abstransfer.experiment import run_experiment
+from abstransfer import read_map
+from abstransfer.experiments import workers
+from abstransfer.experiments.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
+from abstransfer.experiments.plan import make_plan, parameters
+from abstransfer.experiments.problem import Reading, build_guides, target_tasks
+from abstransfer.experiments.results import (
+    Results,
+    load_results,
+    save_part,
+    save_results,
+)
+from abstransfer.experiments.run import run_experiment
 from abstransfer.learning import q_learning
-from abstransfer.plan import make_plan, parameters
 from abstransfer.policies import restrict_policy
-from abstransfer.reading import Reading, build_guides, target_tasks
-from abstransfer.results import Results, load_results, save_part, save_results
 
 SMALL = Scale(30_000, 10_000)
 READING = Reading(target=read_map("source"))

@@ -6,8 +6,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abstransfer.arms import ARMS, Scale, tau_cells
 from abstransfer.claims import CLAIMS
+from abstransfer.experiments.arms import ARMS, Scale, tau_cells
+from abstransfer.experiments.plan import make_plan, parameters
+from abstransfer.experiments.problem import Reading
+from abstransfer.experiments.results import (
+    Results,
+    load_results,
+    read_results,
+    save_results,
+    stored_results,
+)
+from abstransfer.experiments.stats import Interval
 from abstransfer.figures import (
     effect_text,
     findings_table,
@@ -15,16 +25,6 @@ from abstransfer.figures import (
     verdicts_table,
 )
 from abstransfer.ledger import ledger
-from abstransfer.plan import make_plan, parameters
-from abstransfer.reading import Reading
-from abstransfer.results import (
-    Results,
-    load_results,
-    read_results,
-    save_results,
-    stored_results,
-)
-from abstransfer.stats import Interval
 from abstransfer.verdicts import HOLDS, Finding
 
 SCALE = Scale(30_000_000, 1_000_000)
@@ -153,7 +153,7 @@ def test_verdicts_and_findings_stand_side_by_side(results):
 
 
 def test_stored_results_are_read_by_name(results, monkeypatch, tmp_path):
-    monkeypatch.setattr("abstransfer.results.DATA", tmp_path)
+    monkeypatch.setattr("abstransfer.experiments.results.DATA", tmp_path)
     with pytest.raises(FileNotFoundError, match="package: none"):
         read_results("goal")
     (tmp_path / "results").symlink_to(results)

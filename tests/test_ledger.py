@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from abstransfer.arms import ARMS
 from abstransfer.claims import CLAIMS
+from abstransfer.experiments.arms import ARMS
+from abstransfer.experiments.results import Results
+from abstransfer.experiments.stats import Interval
 from abstransfer.ledger import ledger
-from abstransfer.results import Results
-from abstransfer.stats import Interval
 from abstransfer.verdicts import (
     FAILS,
     HOLDS,

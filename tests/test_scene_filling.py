@@ -7,8 +7,8 @@ import pytest
 from run_scenes import show  # noqa: F401 (a fixture)
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
-from abstransfer import stats
-from abstransfer.results import read_results
+from abstransfer.experiments import stats
+from abstransfer.experiments.results import read_results
 from abstransfer.stopping import KEYS, SAME, orders, read_along, tracks
 from abstransfer.widgets import Filling
 

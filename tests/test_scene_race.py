@@ -7,9 +7,9 @@ import pytest
 from run_scenes import SHORT, python_run, show  # noqa: F401 (a fixture)
 from scene_tab import open_scene  # noqa: F401 (a fixture)
 
-from abstransfer.arms import ARMS
+from abstransfer.experiments.arms import ARMS
+from abstransfer.experiments.problem import build_guides, target_tasks
 from abstransfer.navigation import ACTIONS
-from abstransfer.reading import build_guides, target_tasks
 from abstransfer.widgets import Race
 
 NAMES = {"none": "no advice", "rand": "random", "prob": "Prob", "nd": "ND"}

@@ -6,7 +6,7 @@ import pytest
 from run_scenes import SHORT, python_run, show  # noqa: F401 (a fixture)
 from scene_tab import bare, open_scene  # noqa: F401 (a fixture)
 
-from abstransfer.arms import TAUS
+from abstransfer.experiments.arms import TAUS
 from abstransfer.widgets import TauSlider
 
 SIDES = ("hard", "soft")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats as scipy_stats
 
-from abstransfer.curves import (
+from abstransfer.experiments.curves import (
     asymptotic_level,
     critical_point,
     jumpstart,
@@ -13,7 +13,7 @@ from abstransfer.curves import (
     time_to_threshold,
     transfer_ratio,
 )
-from abstransfer.stats import (
+from abstransfer.experiments.stats import (
     iqm_interval,
     mean_interval,
     paired_difference,

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from abstransfer import stats
+from abstransfer.experiments import stats
+from abstransfer.experiments.results import read_results
 from abstransfer.ledger import ledger
-from abstransfer.results import read_results
 from abstransfer.stopping import (
     KEYS,
     SAME,

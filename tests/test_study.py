@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from abstransfer import MDP, induce_nondeterministic, navigation_tasks, read_map
-from abstransfer.arms import Scale
-from abstransfer.diagnosis import arrival, can_arrive, notes_after
+from abstransfer.experiments.arms import Scale
+from abstransfer.experiments.diagnosis import arrival, can_arrive, notes_after
+from abstransfer.experiments.plan import make_plan, parameters
+from abstransfer.experiments.problem import Reading, build_guides, target_tasks
+from abstransfer.experiments.results import read_results
 from abstransfer.figures import make_figures
 from abstransfer.learning import q_learning, q_learning_runs
-from abstransfer.plan import make_plan, parameters
-from abstransfer.reading import Reading, build_guides, target_tasks
-from abstransfer.results import read_results
 from abstransfer.study import ADVICE, STUDIES, TAU, Study, make_guides, run_studies
 
 SMALL = Scale(30_000, 10_000)

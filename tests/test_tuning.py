@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from abstransfer.arms import ARMS, TAUS, tau_cells
-from abstransfer.results import Results
-from abstransfer.tuning import tune, tuned_arms
+from abstransfer.experiments.arms import ARMS, TAUS, tau_cells
+from abstransfer.experiments.results import Results
+from abstransfer.experiments.tuning import tune, tuned_arms
 
 N_RUNS = 10
 

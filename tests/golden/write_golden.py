@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import abstransfer as at
-from abstransfer.arms import ARMS, TAUS
 from abstransfer.driving import PAPER, abstract_policies
+from abstransfer.experiments.arms import ARMS, TAUS
 from abstransfer.learning import q_learning
 from abstransfer.maps import DIRECTIONS
 

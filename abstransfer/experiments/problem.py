@@ -15,12 +15,12 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from ._paths import DATA
-from .driving import BUILDERS, abstract_policies
-from .maps import Map, read_map
-from .navigation import NavigationTasks, navigation_tasks
-from .policies import restrict_policy
-from .solvers import evaluate_policy
+from .._paths import DATA
+from ..driving import BUILDERS, abstract_policies
+from ..maps import Map, read_map
+from ..navigation import NavigationTasks, navigation_tasks
+from ..policies import restrict_policy
+from ..solvers import evaluate_policy
 
 GUIDES = ("rand", *BUILDERS)
 

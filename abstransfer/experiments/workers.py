@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..policies import restrict_policy
 from .arms import Scale
-from .policies import restrict_policy
-from .reading import Reading, target_tasks
+from .problem import Reading, target_tasks
 
 STOP = threading.Event()  # set in a worker process whose parent wants no more
 
@@ -44,7 +44,7 @@ def run_job(
 
     `on_progress` is told the steps just taken, summed over the runs.
     """
-    from .learning import q_learning_runs
+    from ..learning import q_learning_runs
 
     def go_on(n_steps: int) -> None:
         if STOP.is_set():

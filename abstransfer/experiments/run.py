@@ -20,7 +20,7 @@ import numpy as np
 
 from .arms import ARMS, Arm, Scale
 from .plan import SEED, Plan, differences, make_jobs, make_plan, parameters
-from .reading import Reading, executed_values
+from .problem import Reading, executed_values
 from .results import (
     TABLE,
     Results,

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._paths import DATA
+from .._paths import DATA
 from .arms import Arm
 
 TABLE, RECORD, PARTS = "goals.csv.gz", "experiment.json", "parts"

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse.csgraph import breadth_first_order
 
-from .learning import q_learning_runs
-from .mdp import MDP, check_policy
-from .solvers import evaluate_policy, optimal_values, transition_matrix
+from ..learning import q_learning_runs
+from ..mdp import MDP, check_policy
+from ..solvers import evaluate_policy, optimal_values, transition_matrix
 
 
 class Arrival(NamedTuple):

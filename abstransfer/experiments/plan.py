@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .arms import SCALES, Arm, Scale, check_arms
-from .reading import GUIDES, Reading, build_guides, digest
+from .problem import GUIDES, Reading, build_guides, digest
 from .workers import Job
 
 SEED = 2015  # the year of the paper

@@ -1,0 +1,1 @@
+"""Many runs of many arms, on as many workers as there are, and what they say."""
