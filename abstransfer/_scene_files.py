@@ -11,8 +11,8 @@ import re
 from functools import cache
 from importlib.resources import files
 
-from ._style import PALETTE
 from .maps import read_map
+from .plotting.style import PALETTE
 
 FOLDER = files("abstransfer") / "scenes"
 SCENE = ".abstransfer-scene"

@@ -13,10 +13,10 @@ from html import escape
 
 import numpy as np
 
-from ._cells import DOOR_SIDE
 from ._scene_files import EXTRA
-from ._style import COLOR
 from .maps import CORRIDOR, DOOR, OPEN, Map
+from .plotting.cells import DOOR_SIDE
+from .plotting.style import COLOR
 
 CELL = 20  # units of the drawing
 STAR = "M0-7L1.6-2.2 6.7-2.2 2.6.8 4.1 5.7 0 2.7-4.1 5.7-2.6.8-6.7-2.2-1.6-2.2Z"

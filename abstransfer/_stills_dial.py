@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ._stills import paint
 from ._stills_runs import BOTTOM, LEFT, RIGHT, TOP, WIDTH, _line, _text
-from ._style import COLOR, number
+from .plotting.style import COLOR, number
 
 HEIGHT = 130  # of one panel
 LAST = 8.0  # end of the dial

@@ -9,8 +9,8 @@ import numpy as np
 
 from ._stills import paint
 from ._stills_runs import MARKS, _line, _text, short
-from ._style import PALETTE, arm_style
 from .experiments.stats import Interval
+from .plotting.style import PALETTE, arm_style
 
 WIDTH, ROW = 300, 26  # units of the drawing
 LEFT, RIGHT, TOP = 98, 44, 16  # margins

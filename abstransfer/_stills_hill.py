@@ -11,7 +11,7 @@ from contourpy import FillType, contour_generator
 
 from ._stills import paint
 from ._stills_runs import _line, _text
-from ._style import number
+from .plotting.style import number
 
 LEVELS = (-20, -10, -7, -5, -4.5, -4, -3.5, -3, -2.5, -2.2)
 LEFT, TOP, SIDE = 34, 22, 200  # of the drawing

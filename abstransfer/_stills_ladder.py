@@ -9,7 +9,7 @@ import numpy as np
 
 from ._stills import paint
 from ._stills_runs import MARKS, _line, _text
-from ._style import PALETTE, arm_style, number, spread
+from .plotting.style import PALETTE, arm_style, number, spread
 
 WIDTH, HEIGHT = 320, 300  # units of the drawing
 TOP, BOTTOM, SIDE, LINE, STEP = 30, 12, 112, 14, 10

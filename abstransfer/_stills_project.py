@@ -10,7 +10,7 @@ import numpy as np
 from ._stills import paint
 from ._stills_ladder import SHAPES
 from ._stills_runs import _line, _text
-from ._style import PALETTE, arm_style, number
+from .plotting.style import PALETTE, arm_style, number
 
 WIDTH, ROW = 300, 26  # units of the drawing
 LEFT, RIGHT = 62, 50

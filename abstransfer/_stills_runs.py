@@ -8,7 +8,7 @@ from html import escape
 import numpy as np
 
 from ._stills import paint
-from ._style import PALETTE, arm_style, spread
+from .plotting.style import PALETTE, arm_style, spread
 
 WIDTH, HEIGHT = 300, 200  # units of the drawing
 LEFT, RIGHT, TOP, BOTTOM = 34, 66, 26, 34  # margins

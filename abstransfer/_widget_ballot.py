@@ -8,16 +8,16 @@ import numpy as np
 import traitlets
 
 from ._abstract_counts import _optimal
-from ._cells import count
 from ._stills import building_svg
 from ._stills_ballot import box_svg
 from ._stills_dial import Panel, panels_svg
-from ._style import number
 from ._widget import MapTrait, Scene, Still
 from ._widget_dial import BETAS, LAST, STEP, _driving, _policy
 from .driving import PAPER
 from .maps import Map
 from .navigation import LABELS, navigation_tasks
+from .plotting.cells import count
+from .plotting.style import number
 from .policies import break_ties, count_votes
 
 WINNER = LAST + STEP  # how the browser writes an infinite beta

@@ -8,11 +8,11 @@ import numpy as np
 import traitlets
 
 from ._stills_dial import Panel, panels_svg
-from ._style import number
 from ._widget import Still
 from ._widget_runs import RunScene
 from .experiments.arms import PAPER_STEPS, STRATEGIES, Arm
 from .experiments.problem import Reading, build_guides, executed_values
+from .plotting.style import number
 from .policies import beta_policy
 
 LAST, STEP = 8.0, 0.25

@@ -8,10 +8,10 @@ import numpy as np
 import traitlets
 
 from ._stills_hill import Landscape, hill_svg
-from ._style import number
 from ._widget import Scene, Still
 from .builders.deduced import Climb, absprob_pi
 from .mdp import MDP
+from .plotting.style import number
 from .solvers import evaluate_policy
 
 LAST = 300  # iterations of a climb

@@ -6,15 +6,15 @@ from functools import lru_cache
 
 import traitlets
 
-from ._cells import count
 from ._stills import building_svg
 from ._stills_ladder import ladders_svg
-from ._style import arm_style, number
 from ._widget import MapTrait, Still
 from ._widget_drawn import DrawnScene
 from .driving import BUILDERS, PAPER, ROWS, table1
 from .maps import Map, read_map
 from .navigation import navigation_tasks
+from .plotting.cells import count
+from .plotting.style import arm_style, number
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
 SIDES = ("source", "target")

@@ -7,14 +7,14 @@ from collections.abc import Callable
 import numpy as np
 import traitlets
 
-from ._cells import count
 from ._stills import building_svg
-from ._style import number
 from ._widget import MapTrait, Scene, Still
 from .learning import Learner, loop, q_learning
 from .learning._runs import RunState, set_up
 from .learning.settings import Settings
 from .navigation import NavigationTasks, navigation_tasks
+from .plotting.cells import count
+from .plotting.style import number
 
 TWO_ROOMS = """\
 +-----+-----+

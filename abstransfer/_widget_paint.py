@@ -6,11 +6,11 @@ import numpy as np
 import traitlets
 
 from ._abstract_counts import Counts, count_states, mask_of
-from ._cells import count
 from ._stills import building_svg
-from ._task_cells import abstract_ranks
 from ._widget import MapTrait, Scene, Still
 from .navigation import FEATURES, LABELS, NavigationTasks, navigation_tasks
+from .plotting.cells import count
+from .plotting.task_cells import abstract_ranks
 
 ALL = (1 << len(FEATURES)) - 1
 CHOICES = {  # rows of the still picture's table

@@ -6,14 +6,14 @@ from functools import lru_cache
 
 import traitlets
 
-from ._cells import count
 from ._stills import building_svg
 from ._stills_project import bars_svg, dots_svg
-from ._style import number
 from ._widget import MapTrait, Still
 from ._widget_drawn import DrawnScene
 from .driving import BUILDERS
 from .navigation import FEATURES
+from .plotting.cells import count
+from .plotting.style import number
 from .project import ADVICE, GUIDES, Setup, drives, run
 from .project_card import card_text
 from .race import Race

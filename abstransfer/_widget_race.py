@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import traitlets
 
-from ._cells import place
 from ._stills import CELL, building_svg, paint
 from ._stills_runs import curves_svg
 from ._widget import Still
@@ -12,6 +11,7 @@ from ._widget_runs import NAMES, PolicyTrait, RunScene, scaled
 from .experiments.arms import ARMS, PAPER_STEPS, Arm
 from .experiments.problem import target_tasks
 from .learning import q_learning
+from .plotting.cells import place
 
 FIRST = 1000  # steps that can be looked at
 RACERS = ("none", "rand-hard", "prob-hard", "nd-hard")

@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 import traitlets
 
-from ._cells import count
 from ._stills import building_svg
-from ._style import number
 from ._widget import MapTrait, Scene, Still
 from .maps import Map
 from .navigation import NavigationTasks, navigation_tasks
+from .plotting.cells import count
+from .plotting.style import number
 from .solvers import optimal_actions, optimal_values, value_iteration
 
 RIGHT = 0.01  # a value is known when it is right to within this

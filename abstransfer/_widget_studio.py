@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import traitlets
 
-from ._cells import count
 from ._stills import building_svg
-from ._style import arm_style, number
 from ._widget import MapTrait, Still
 from ._widget_drawn import DrawnScene, read_drawing
 from .driving import BUILDERS, PAPER, ROWS, abstract_policies, column
 from .maps import Map, read_map
 from .navigation import NavigationTasks, navigation_tasks
+from .plotting.cells import count
+from .plotting.style import arm_style, number
 from .solvers import evaluate_policy, optimal_values
 
 TOOLS = ("walk", "wall", "door", "room", "corridor", "goal")

@@ -14,12 +14,12 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from abstransfer import plotting
-from abstransfer._plot_map import BLACK_ON, N_SHADES, _shades
-from abstransfer._style import MARKS, number, spread
-from abstransfer._task_cells import abstract_ranks, walking_distance
 from abstransfer.driving import PAPER, ROWS
 from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import navigation_tasks
+from abstransfer.plotting.buildings import BLACK_ON, N_SHADES, _shades
+from abstransfer.plotting.style import MARKS, number, spread
+from abstransfer.plotting.task_cells import abstract_ranks, walking_distance
 
 ALT = "A line that rises from zero to one, to see how it is drawn."
 TWO_ROOMS = parse_map("+-+-----+\n|*d. . .|\n+-+---+d+\n|* *  d.|\n+-----+-+")

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ._style import SMALL, WIDTH, arm_style, label_gap, new_axes, number, spread
-from .driving import PAPER, ROWS
+from ..driving import PAPER, ROWS
+from .style import SMALL, WIDTH, arm_style, label_gap, new_axes, number, spread
 
 BUILDINGS = {"source": "source building", "target": "target building"}
 

@@ -14,18 +14,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from inspect import signature
 
-from ._describe_runs import describe_boxes, describe_curves, describe_tau
-from ._figure import Picture, draw_picture
-from ._plot_ladder import describe_ladder, plot_ladder
-from ._plot_map import describe_map, describe_values, plot_map, plot_values
-from ._plot_runs import plot_boxes, plot_curves, plot_tau
-from ._plot_tasks import (
+from .buildings import describe_map, describe_values, plot_map, plot_values
+from .describe_runs import describe_boxes, describe_curves, describe_tau
+from .ladder import describe_ladder, plot_ladder
+from .picture import Picture, draw_picture
+from .runs import plot_boxes, plot_curves, plot_tau
+from .style import PALETTE, WIDTH, ArmStyle, arm_style
+from .tasks import (
     describe_features,
     describe_policy,
     plot_features,
     plot_policy,
 )
-from ._style import PALETTE, WIDTH, ArmStyle, arm_style
 
 __all__ = [
     "PALETTE",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._style import COLOR, SMALL
-from .maps import DOOR, WALLS, Map
+from ..maps import DOOR, WALLS, Map
+from .style import COLOR, SMALL
 
 DOOR_SIDE = 0.18  # of a cell's side, wall on either side of a door
 

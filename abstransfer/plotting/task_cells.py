@@ -6,8 +6,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from .maps import Map
-from .navigation import NavigationTasks
+from ..maps import Map
+from ..navigation import NavigationTasks
 
 
 def walking_distance(map_: Map, goal: int) -> np.ndarray:

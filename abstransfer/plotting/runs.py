@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ._describe_runs import arm_arrays, tau_arrays, thousands
-from ._style import COLOR, SMALL, WIDTH, arm_style, label_gap, new_axes, spread
+from .describe_runs import arm_arrays, tau_arrays, thousands
+from .style import COLOR, SMALL, WIDTH, arm_style, label_gap, new_axes, spread
 
 MILLION = 1_000_000
 WINDOW = 500_000  # steps

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._cells import cell_array, count, draw_edges, paint_cells, place, print_in
-from ._style import COLOR, WIDTH, new_axes, number
-from .maps import CORRIDOR, Map
+from ..maps import CORRIDOR, Map
+from .cells import cell_array, count, draw_edges, paint_cells, place, print_in
+from .style import COLOR, WIDTH, new_axes, number
 
 N_SHADES = 40
 BLACK_ON = 19  # the first shade on which black reads better than white

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ._style import arm_style
+from .style import arm_style
 
 ROOM = 290  # characters of an alt text
 

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._cells import count, paint_cells, place, print_in
-from ._plot_map import plot_map
-from ._style import COLOR
-from ._task_cells import (
+from ..maps import CORRIDOR
+from ..navigation import NavigationTasks, describe
+from .buildings import plot_map
+from .cells import count, paint_cells, place, print_in
+from .style import COLOR
+from .task_cells import (
     abstract_ranks,
     lit_cells,
     move_probabilities,
     task_parts,
     walking_distance,
 )
-from .maps import CORRIDOR
-from .navigation import NavigationTasks, describe
 
 TINTS = ("#DCE9F3", "#F7E3C0", "#D3EEE3", "#F3DCEA", "#F3F0C2", "#E4E4E4", "#FADCCB")
 HATCH = "////"

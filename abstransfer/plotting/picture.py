@@ -17,7 +17,7 @@ from html import escape
 from pathlib import Path
 from zlib import crc32
 
-from ._style import RC, WIDTH
+from .style import RC, WIDTH
 
 SHORTEST, LONGEST = 40, 300  # characters of an alt text
 NO_METADATA = dict.fromkeys(("Creator", "Date", "Format", "Type"))
