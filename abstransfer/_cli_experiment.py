@@ -62,7 +62,7 @@ def add_figures(commands) -> None:
 
 def _run_experiment(arguments) -> int:
     from .experiments.run import run_experiment
-    from .reproduction import Experiment, arms_of, reproduce
+    from .reproduction.catalogue import Experiment, arms_of, reproduce
 
     if arguments.everything and (arguments.reward, arguments.target) != (
         "goal",
@@ -111,7 +111,7 @@ def _run_experiment(arguments) -> int:
 
 def _summary(out: str) -> str:
     """Return one line for each experiment in a folder."""
-    from .figures import finished_experiments
+    from .reproduction.figures import finished_experiments
 
     lines = []
     for name, results in finished_experiments(out).items():
@@ -125,7 +125,7 @@ def _summary(out: str) -> str:
 
 
 def _run_figures(arguments) -> int:
-    from .figures import make_figures
+    from .reproduction.figures import make_figures
 
     make_figures(arguments.results, arguments.out, on_file=print)
     return 0

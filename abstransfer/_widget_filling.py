@@ -8,11 +8,11 @@ import traitlets
 
 from ._stills_filling import boxes_svg
 from ._widget import Scene, Still
-from .claims import CLAIMS
 from .experiments.arms import ARMS
 from .experiments.results import read_results, stored_results
 from .experiments.stats import mean_interval
-from .stopping import (
+from .reproduction.claims import CLAIMS
+from .reproduction.optional_stopping import (
     FIRST_LOOK,
     KEYS,
     SAME,

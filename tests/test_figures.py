@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abstransfer.claims import CLAIMS
 from abstransfer.experiments.arms import ARMS, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
 from abstransfer.experiments.problem import Reading
@@ -18,14 +17,15 @@ from abstransfer.experiments.results import (
     stored_results,
 )
 from abstransfer.experiments.stats import Interval
-from abstransfer.figures import (
+from abstransfer.reproduction.claims import CLAIMS
+from abstransfer.reproduction.figures import (
     effect_text,
     findings_table,
     make_figures,
     verdicts_table,
 )
-from abstransfer.ledger import ledger
-from abstransfer.verdicts import HOLDS, Finding
+from abstransfer.reproduction.ledger import ledger
+from abstransfer.reproduction.verdicts import HOLDS, Finding
 
 SCALE = Scale(30_000_000, 1_000_000)
 EXECUTED = {"rand": -97.0, "nd": -81.0, "prob": -70.0, "grad": -71.0}

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from abstransfer.claims import CLAIMS
 from abstransfer.experiments.arms import ARMS
 from abstransfer.experiments.results import Results
 from abstransfer.experiments.stats import Interval
-from abstransfer.ledger import ledger
-from abstransfer.verdicts import (
+from abstransfer.reproduction.claims import CLAIMS
+from abstransfer.reproduction.ledger import ledger
+from abstransfer.reproduction.verdicts import (
     FAILS,
     HOLDS,
     IN_PART,

@@ -9,7 +9,13 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
 from abstransfer.experiments import stats
 from abstransfer.experiments.results import read_results
-from abstransfer.stopping import KEYS, SAME, orders, read_along, tracks
+from abstransfer.reproduction.optional_stopping import (
+    KEYS,
+    SAME,
+    orders,
+    read_along,
+    tracks,
+)
 from abstransfer.widgets import Filling
 
 RESULTS = read_results("goal-target")

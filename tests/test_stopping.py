@@ -5,8 +5,8 @@ import pytest
 
 from abstransfer.experiments import stats
 from abstransfer.experiments.results import read_results
-from abstransfer.ledger import ledger
-from abstransfer.stopping import (
+from abstransfer.reproduction.ledger import ledger
+from abstransfer.reproduction.optional_stopping import (
     KEYS,
     SAME,
     comparisons,

@@ -11,9 +11,16 @@ from abstransfer.experiments.diagnosis import arrival, can_arrive, notes_after
 from abstransfer.experiments.plan import make_plan, parameters
 from abstransfer.experiments.problem import Reading, build_guides, target_tasks
 from abstransfer.experiments.results import read_results
-from abstransfer.figures import make_figures
 from abstransfer.learning import q_learning, q_learning_runs
-from abstransfer.study import ADVICE, STUDIES, TAU, Study, make_guides, run_studies
+from abstransfer.reproduction.figures import make_figures
+from abstransfer.reproduction.study import (
+    ADVICE,
+    STUDIES,
+    TAU,
+    Study,
+    make_guides,
+    run_studies,
+)
 
 SMALL = Scale(30_000, 10_000)
 

@@ -12,22 +12,22 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from .experiments.arms import ARMS
-from .experiments.curves import (
+from ..experiments.arms import ARMS
+from ..experiments.curves import (
     asymptotic_level,
     critical_point,
     jumpstart,
     time_to_threshold,
 )
-from .experiments.results import Results
-from .experiments.stats import (
+from ..experiments.results import Results
+from ..experiments.stats import (
     Interval,
     iqm_interval,
     mean_interval,
     probability_of_improvement,
     relative_gain,
 )
-from .experiments.tuning import Tuning
+from ..experiments.tuning import Tuning
 from .ledger import Entry
 
 MILLION = 1_000_000

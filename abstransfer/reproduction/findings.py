@@ -11,11 +11,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .driving import BUILDERS
-from .experiments.arms import STRATEGIES
-from .experiments.curves import SMOOTH, asymptotic_level, critical_point, rises
-from .experiments.results import Results
-from .experiments.stats import (
+from ..driving import BUILDERS
+from ..experiments.arms import STRATEGIES
+from ..experiments.curves import SMOOTH, asymptotic_level, critical_point, rises
+from ..experiments.results import Results
+from ..experiments.stats import (
     LEVEL,
     RESAMPLES,
     Interval,

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..experiments.results import Results
 from .claims import CLAIMS, Claim
-from .experiments.results import Results
 from .verdicts import Finding, combine
 
 

@@ -12,13 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from .experiments.arms import ARMS, Arm, tau_cells
-from .experiments.plan import SEED
-from .experiments.problem import Reading
-from .experiments.results import Results, load_results
-from .experiments.run import run_experiment
-from .experiments.tuning import tune, tuned_arms
-from .maps import read_map
+from ..experiments.arms import ARMS, Arm, tau_cells
+from ..experiments.plan import SEED
+from ..experiments.problem import Reading
+from ..experiments.results import Results, load_results
+from ..experiments.run import run_experiment
+from ..experiments.tuning import tune, tuned_arms
+from ..maps import read_map
 
 
 class Experiment(NamedTuple):

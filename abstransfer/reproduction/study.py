@@ -19,14 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .experiments.arms import STRATEGIES, Arm, Scale
-from .experiments.plan import SEED
-from .experiments.problem import Reading, build_guides
-from .experiments.results import Results
-from .experiments.run import run_experiment
-from .maps import read_map
-from .navigation import navigation_tasks
-from .policies import beta_policy, uniform_policy
+from ..experiments.arms import STRATEGIES, Arm, Scale
+from ..experiments.plan import SEED
+from ..experiments.problem import Reading, build_guides
+from ..experiments.results import Results
+from ..experiments.run import run_experiment
+from ..maps import read_map
+from ..navigation import navigation_tasks
+from ..policies import beta_policy, uniform_policy
 
 TAU = {"hard": 3_500_000, "soft": 6_000_000}  # the paper's, of Prob
 BETAS = (0, 0.25, 0.5, 1, 2, 4, 8)

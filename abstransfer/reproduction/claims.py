@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .experiments.results import Results
+from ..experiments.results import Results
 from .findings import (
     all_beat_q_learning,
     critical_point_exists,

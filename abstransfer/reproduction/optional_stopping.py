@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..experiments.results import Results
+from ..experiments.stats import LEVEL, RESAMPLES, Interval
 from .claims import CLAIMS
-from .experiments.results import Results
-from .experiments.stats import LEVEL, RESAMPLES, Interval
 from .findings import MARGIN
 from .verdicts import UNDECIDED, Finding, combine, judge
 

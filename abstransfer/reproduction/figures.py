@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from .experiments.problem import GUIDES
-from .experiments.results import RECORD, Results, load_results
-from .experiments.stats import mean_interval
-from .experiments.tuning import tune
+from ..experiments.problem import GUIDES
+from ..experiments.results import RECORD, Results, load_results
+from ..experiments.stats import mean_interval
+from ..experiments.tuning import tune
+from ..plotting import figure, plot_boxes, plot_curves, plot_tau
 from .ledger import Entry, ledger
-from .plotting import figure, plot_boxes, plot_curves, plot_tau
 from .tables import (
     curves_table,
     experiment_name,
@@ -187,7 +187,7 @@ def effect_text(finding) -> str:
     Return an effect with its interval, in its unit.
 
     >>> from abstransfer.experiments.stats import Interval
-    >>> from abstransfer.verdicts import HOLDS, Finding
+    >>> from abstransfer.reproduction.verdicts import HOLDS, Finding
     >>> effect_text(Finding("", Interval(0.25, 0.24, 0.267), "ratio", HOLDS))
     '+25.0 % [24.0, 26.7]'
     """

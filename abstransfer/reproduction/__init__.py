@@ -1,0 +1,1 @@
+"""This one paper: its claims, all experiments of the book, verdicts, figures."""
