@@ -14,9 +14,9 @@ from .driving import BUILDERS
 from .navigation import FEATURES
 from .plotting.cells import count
 from .plotting.style import number
-from .project import ADVICE, GUIDES, Setup, drives, run
-from .project_card import card_text
-from .race import Race
+from .project.project_card import card_text
+from .project.racing import Race
+from .project.setup import ADVICE, GUIDES, Setup, drives, run
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
 NAMES = {

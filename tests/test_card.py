@@ -13,9 +13,9 @@ from abstransfer import (
     read_map,
     uniform_policy,
 )
-from abstransfer.card import make_card, read_card
 from abstransfer.learning import q_learning
-from abstransfer.race import race
+from abstransfer.project.card import make_card, read_card
+from abstransfer.project.racing import race
 
 ROOMS = parse_map(
     "+-----+-----+\n"

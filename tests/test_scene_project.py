@@ -9,8 +9,8 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 from abstransfer.experiments.stats import paired_difference
 from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import FEATURES
-from abstransfer.project import GUIDES, Setup, drives, run, scale
-from abstransfer.project_card import card_text, read_setup, verify
+from abstransfer.project.project_card import card_text, read_setup, verify
+from abstransfer.project.setup import GUIDES, Setup, drives, run, scale
 from abstransfer.widgets import Project
 
 SCHOOL = parse_map(Project().text)

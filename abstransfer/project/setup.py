@@ -12,13 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .driving import BUILDERS, abstract_policies, column
-from .experiments.arms import PAPER_STEPS
-from .maps import Map, read_map
-from .navigation import FEATURES, NavigationTasks, navigation_tasks
-from .policies import uniform_policy
-from .race import Race, race
-from .solvers import evaluate_policy
+from ..driving import BUILDERS, abstract_policies, column
+from ..experiments.arms import PAPER_STEPS
+from ..maps import Map, read_map
+from ..navigation import FEATURES, NavigationTasks, navigation_tasks
+from ..policies import uniform_policy
+from ..solvers import evaluate_policy
+from .racing import Race, race
 
 GUIDES = (*BUILDERS, "eager", "rand")
 ADVICE = ("source", "target", "own")

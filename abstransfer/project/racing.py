@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .experiments.plan import SEED
-from .learning import q_learning_runs
-from .learning.settings import whole
-from .navigation import NavigationTasks
-from .policies import restrict_policy
+from ..experiments.plan import SEED
+from ..learning import q_learning_runs
+from ..learning.settings import whole
+from ..navigation import NavigationTasks
+from ..policies import restrict_policy
 
 
 class Race(NamedTuple):

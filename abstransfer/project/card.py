@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .driving import column
-from .experiments.problem import digest
-from .experiments.stats import Interval, mean_interval, relative_gain
-from .race import Race
+from ..driving import column
+from ..experiments.problem import digest
+from ..experiments.stats import Interval, mean_interval, relative_gain
+from .racing import Race
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def make_card(race: Race, *, title: str, by: str = "nobody", rng=0) -> Card:
     Return the card of a race, with 95 % intervals over its runs.
 
     >>> from abstransfer import navigation_tasks, parse_map, uniform_policy
-    >>> from abstransfer.race import race
+    >>> from abstransfer.project.racing import race
     >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"), reward="goal")
     >>> go = {"eager": uniform_policy(tasks.possible)}
     >>> card = make_card(race(tasks, go, steps=90, tau=90, n_runs=2), title="Try")

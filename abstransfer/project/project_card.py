@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .driving import column
-from .experiments.plan import SEED
-from .maps import parse_map
-from .navigation import FEATURES, navigation_tasks
-from .project import GUIDES, Setup, drives, run, scale
-from .race import Race
+from ..driving import column
+from ..experiments.plan import SEED
+from ..maps import parse_map
+from ..navigation import FEATURES, navigation_tasks
+from .racing import Race
+from .setup import GUIDES, Setup, drives, run, scale
 
 
 class Verified(NamedTuple):
@@ -112,7 +112,7 @@ def verify(text: str) -> Verified:
 
     Examples
     --------
-    >>> from abstransfer.project import Setup, run
+    >>> from abstransfer.project.setup import Setup, run
     >>> setup = Setup(parse_map("+---+\\n|.d*|\\n+---+"), guides=("eager",), lives=1)
     >>> card = card_text(setup, run(setup).goals)
     >>> verify("By me.\\n" + card).setup == setup
