@@ -311,7 +311,8 @@ def test_only_what_needs_them_imports_numba_and_matplotlib():
     script = (
         "import sys\n"
         "from abstransfer.cli import main\n"
-        "import abstransfer.experiments.run, abstransfer.reproduction.ledger, abstransfer.reproduction.figures\n"
+        "import abstransfer.experiments.run\n"
+        "import abstransfer.reproduction.ledger, abstransfer.reproduction.figures\n"
         "try: main(['experiment', '--help'])\n"
         "except SystemExit: pass\n"
         "slow = {'numba', 'matplotlib', 'tqdm', 'distributed'} & set(sys.modules)\n"
