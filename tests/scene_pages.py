@@ -16,14 +16,14 @@ import pytest
 from conftest import ROOT, Visit
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from abstransfer import widgets
+from abstransfer import scenes
 
 METADATA = {"language_info": {"name": "python", "pygments_lexer": "ipython3"}}
 PAGES = {
     "microscope": [
-        "widgets.Microscope()",
-        "widgets.Microscope(start='cost', t=20)",
-        "widgets.Microscope(update=lambda q, s, a, r, s_next, alpha, gamma: r)",
+        "scenes.Microscope()",
+        "scenes.Microscope(start='cost', t=20)",
+        "scenes.Microscope(update=lambda q, s, a, r, s_next, alpha, gamma: r)",
     ],
 }
 
@@ -32,7 +32,7 @@ def page_of(cells) -> nbformat.NotebookNode:
     """Return a notebook whose outputs are what these cells would show."""
     parts = [new_markdown_cell("# A page for tests")]
     for number, code in enumerate(cells, 1):
-        data = eval(code, {"widgets": widgets})._repr_mimebundle_()
+        data = eval(code, {"scenes": scenes})._repr_mimebundle_()
         output = new_output("execute_result", data=data, execution_count=number)
         parts.append(new_markdown_cell(f"## Scene {number}"))
         parts.append(new_code_cell(code, outputs=[output], execution_count=number))

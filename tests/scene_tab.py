@@ -5,7 +5,7 @@ from importlib.resources import files
 import pytest
 from conftest import Visit
 
-from abstransfer import _scene_files
+from abstransfer.scenes import files as _scene_files
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 PAGE = """<!doctype html>

@@ -16,7 +16,7 @@ from conftest import unavailable
 from nbformat.v4 import new_code_cell, new_notebook
 from playwright.sync_api import expect
 
-CELL = "from abstransfer import widgets\n\n{0} = widgets.{0}()\n{0}"
+CELL = "from abstransfer import scenes\n\n{0} = scenes.{0}()\n{0}"
 SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to push
     "Microscope": ("Step", "t", 110, 7),
     "Race": ("Step", "t", 38, 7),

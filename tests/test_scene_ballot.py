@@ -10,11 +10,11 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 from traitlets import TraitError
 
 from abstransfer import maps
-from abstransfer._widget_ballot import PAGES, WINNER
-from abstransfer._widget_dial import BETAS
 from abstransfer.driving import PAPER
 from abstransfer.navigation import LABELS, navigation_tasks
-from abstransfer.widgets import Ballot
+from abstransfer.scenes import Ballot
+from abstransfer.scenes.ballot.widget import PAGES, WINNER
+from abstransfer.scenes.dial.widget import BETAS
 
 SMALL = maps.read_map("source")
 THREE = "+-+-+-+\n|. . .|\n+d+d+d+\n|*|*|*|\n+ + + +\n| | | |\n+-+-+-+"

@@ -6,7 +6,7 @@ import pytest
 from bs4 import BeautifulSoup
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
-from abstransfer.widgets import Dial
+from abstransfer.scenes import Dial
 
 STEPS = 600_000  # of a run that takes no time
 

@@ -16,7 +16,7 @@ from abstransfer.reproduction.optional_stopping import (
     read_along,
     tracks,
 )
-from abstransfer.widgets import Filling
+from abstransfer.scenes import Filling
 
 RESULTS = read_results("goal-target")
 READINGS = {key: read_along(tracks(RESULTS, key)) for key in KEYS}

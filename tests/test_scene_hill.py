@@ -8,8 +8,8 @@ from conftest import ROOT
 from run_scenes import show  # noqa: F401 (a fixture)
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
-from abstransfer._widget_hill import HALL, LAST, RHO, STARTS, Hill, page
 from abstransfer.builders.deduced import absprob_pi, abstract_gradient
+from abstransfer.scenes.hill.widget import HALL, LAST, RHO, STARTS, Hill, page
 
 LAND = "(abstransfer.land)"
 

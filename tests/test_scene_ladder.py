@@ -8,7 +8,7 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
 from abstransfer.driving import BUILDERS, PAPER, ROWS
 from abstransfer.maps import read_map
-from abstransfer.widgets import Ladder
+from abstransfer.scenes import Ladder
 
 SOURCE = str(read_map("source"))
 NAMES = dict(zip(ROWS, ("random", "ND", "Prob", "Grad", "optimal"), strict=True))

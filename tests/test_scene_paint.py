@@ -10,9 +10,9 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 from traitlets import TraitError
 
 from abstransfer import maps
-from abstransfer._abstract_counts import count_states
 from abstransfer.navigation import FEATURES, navigation_tasks
-from abstransfer.widgets import Paint
+from abstransfer.scenes import Paint
+from abstransfer.scenes.parts.counts import count_states
 
 SMALL, LARGE = maps.read_map("source"), maps.read_map("target")
 TWO_CELLS = "+---+\n|.d*|\n+---+"

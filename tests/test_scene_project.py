@@ -11,7 +11,7 @@ from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import FEATURES
 from abstransfer.project.project_card import card_text, read_setup, verify
 from abstransfer.project.setup import GUIDES, Setup, drives, run, scale
-from abstransfer.widgets import Project
+from abstransfer.scenes import Project
 
 SCHOOL = parse_map(Project().text)
 NAMES = {"nd": "ND", "prob": "Prob", "grad": "Grad", "eager": "eager"}

@@ -10,7 +10,7 @@ from scene_tab import open_scene  # noqa: F401 (a fixture)
 from abstransfer.experiments.arms import ARMS
 from abstransfer.experiments.problem import build_guides, target_tasks
 from abstransfer.navigation import ACTIONS
-from abstransfer.widgets import Race
+from abstransfer.scenes import Race
 
 NAMES = {"none": "no advice", "rand": "random", "prob": "Prob", "nd": "ND"}
 TAU = {arm.guide: arm.tau for arm in ARMS if arm.strategy == "hard"}

@@ -6,9 +6,9 @@ from run_scenes import show  # noqa: F401 (a fixture)
 from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 
 from abstransfer import solvers
-from abstransfer._widget_ripple import RIGHT
 from abstransfer.maps import read_map
-from abstransfer.widgets import Ripple
+from abstransfer.scenes import Ripple
+from abstransfer.scenes.ripple.widget import RIGHT
 
 
 def room(n):

@@ -10,7 +10,7 @@ from scene_tab import bare, number, open_scene  # noqa: F401 (a fixture)
 from abstransfer.driving import PAPER, ROWS, abstract_policies, column
 from abstransfer.maps import parse_map, read_map, tile_map
 from abstransfer.navigation import navigation_tasks
-from abstransfer.widgets import Studio
+from abstransfer.scenes import Studio
 
 SOURCE = str(read_map("source"))
 NAMES = dict(zip(ROWS, ("random", "ND", "Prob", "Grad", "optimal"), strict=True))

@@ -7,7 +7,7 @@ from run_scenes import SHORT, python_run, show  # noqa: F401 (a fixture)
 from scene_tab import bare, open_scene  # noqa: F401 (a fixture)
 
 from abstransfer.experiments.arms import TAUS
-from abstransfer.widgets import TauSlider
+from abstransfer.scenes import TauSlider
 
 SIDES = ("hard", "soft")
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scene_pages import at_scenes, scene_pages  # noqa: F401 (fixtures)
 
-from abstransfer import maps, navigation, widgets
-from abstransfer._widget_microscope import BET, STARTS, STEPS, TWO_ROOMS
+from abstransfer import maps, navigation, scenes
 from abstransfer.learning import q_learning
+from abstransfer.scenes.microscope.widget import BET, STARTS, STEPS, TWO_ROOMS
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
@@ -417,11 +417,11 @@ def test_the_state_of_a_scene_starts_as_in_python(microscope):
     specs = microscope.page.evaluate(
         "Object.entries(abstransfer.scenes).map(([name, spec]) => [name, spec.state])"
     )
-    kinds = [getattr(widgets, name) for name in widgets.__all__]
-    scenes = {kind.scene: kind for kind in kinds if hasattr(kind, "scene")}
-    del scenes[""]
+    kinds = [getattr(scenes, name) for name in scenes.__all__]
+    by_name = {kind.scene: kind for kind in kinds if hasattr(kind, "scene")}
+    del by_name[""]
 
-    assert "microscope" in scenes
-    assert {name: kind.defaults() for name, kind in scenes.items()} == {
-        name: state for name, state in specs if name in scenes
+    assert "microscope" in by_name
+    assert {name: kind.defaults() for name, kind in by_name.items()} == {
+        name: state for name, state in specs if name in by_name
     }

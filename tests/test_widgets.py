@@ -11,17 +11,18 @@ import traitlets
 from bs4 import BeautifulSoup
 from conftest import ROOT
 
-from abstransfer import _scene_files, maps, widgets
-from abstransfer._stills import building_svg
-from abstransfer._widget import VIEW
-from abstransfer._widget_microscope import STARTS, STEPS, own_trace
+from abstransfer import maps, scenes
 from abstransfer.learning import q_learning
-from abstransfer.widgets import Microscope
+from abstransfer.scenes import Microscope
+from abstransfer.scenes import files as _scene_files
+from abstransfer.scenes.base import VIEW
+from abstransfer.scenes.microscope.widget import STARTS, STEPS, own_trace
+from abstransfer.scenes.parts.stills import building_svg
 
 SCENES = [
-    getattr(widgets, name)
-    for name in widgets.__all__
-    if getattr(getattr(widgets, name), "scene", "")
+    getattr(scenes, name)
+    for name in scenes.__all__
+    if getattr(getattr(scenes, name), "scene", "")
 ]
 
 
@@ -149,7 +150,7 @@ def test_a_map_may_be_named_drawn_or_given():
 
 def test_an_array_is_a_list_in_the_browser():
     class Holder(traitlets.HasTraits):
-        policy = widgets.ArrayTrait()
+        policy = scenes.ArrayTrait()
 
     holder = Holder()
     heard = []
@@ -225,7 +226,7 @@ def test_widgets_are_not_loaded_with_the_package():
 
 def test_every_scene_is_in_the_reference():
     reference = (ROOT / "book" / "api.md").read_text(encoding="utf-8")
-    section = reference.split("automodule:: abstransfer.widgets")[1].split("```")[0]
+    section = reference.split("automodule:: abstransfer.scenes")[1].split("```")[0]
     listed = [line.split(":: ")[1] for line in section.split("\n") if ":: " in line]
 
-    assert sorted(listed[1:]) == sorted(widgets.__all__)  # the first: currentmodule
+    assert sorted(listed[1:]) == sorted(scenes.__all__)  # the first: currentmodule

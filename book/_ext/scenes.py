@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sphinx.util import logging
 
-from abstransfer import _scene_files
+from abstransfer.scenes import files as _scene_files
 
 # The theme's scroll spy would read all links of a page, and fail at a link to a moment
 # of a scene: it shall read those of the page's contents, as it means to.

@@ -1,0 +1,155 @@
+"""The scene of page 9: box plots fill life by life; when would you sign?"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import traitlets
+
+from ...experiments.arms import ARMS
+from ...experiments.results import read_results, stored_results
+from ...experiments.stats import mean_interval
+from ...reproduction.claims import CLAIMS
+from ...reproduction.optional_stopping import (
+    FIRST_LOOK,
+    KEYS,
+    SAME,
+    Stops,
+    comparisons,
+    orders,
+    read_along,
+    tracks,
+)
+from ..base import Scene, Still
+from .still import boxes_svg
+
+RUNS = 50
+FRAMES = (3, 10)  # lives of the first two pictures; the last shows all
+NINE = tuple(
+    name
+    for name in stored_results()
+    if name.startswith(("goal-target", "cost-target")) and not name.endswith("-tau")
+)
+
+
+class Filling(Scene):
+    """
+    Box plots that fill life by life: sign a claim when you would.
+
+    Parameters
+    ----------
+    results : str
+        Name of stored results of the nine arms, as ``read_results`` takes it.
+    claim : {"1", "2", "3", "4", "5", "same"}
+        What is judged; "same" compares each arm with itself.
+    order : int, 0 to 4
+        0: the lives as run; else a shuffle of them.
+    n : int, 2 to 50
+        Lives that are shown.
+    signed : int
+        Lives after which the reader signed; 0 before.
+
+    Examples
+    --------
+    >>> scene = Filling(claim="2", n=10)
+    >>> scene
+    Filling(claim='2', n=10)
+    >>> scene.verdict()  # after 10 lives
+    'holds in part'
+    >>> scene.reading("2").settled  # lives from which on no order says otherwise
+    4
+    """
+
+    scene = "filling"
+    results = traitlets.Enum(NINE, "goal-target").tag(sync=True)
+    claim = traitlets.Enum(KEYS, "1").tag(sync=True)
+    order = traitlets.Int(0, min=0, max=4).tag(sync=True)
+    n = traitlets.Int(3, min=2, max=RUNS).tag(sync=True)
+    signed = traitlets.Int(0, min=0, max=RUNS).tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True)
+    data = traitlets.Dict().tag(sync=True)  # follows `results`
+
+    @traitlets.default("data")
+    def _first_data(self) -> dict:
+        return _data(self.results)
+
+    @traitlets.observe("results")
+    def _other_data(self, _) -> None:
+        self.data = _data(self.results)
+
+    @property
+    def changed(self) -> dict:
+        """The state where it is not the default; the data follow from `results`."""
+        return {k: v for k, v in super().changed.items() if k != "data"}
+
+    def options(self) -> dict:
+        """Return the state of the built page, with the goals of all lives."""
+        return self.changed | {"data": self.data}
+
+    def verdict(self, n: int | None = None) -> str:
+        """Return the verdict on `claim` after `n` lives, in the order of the scene."""
+        return _verdicts(self.results, self.claim)[self.order][(n or self.n) - 2]
+
+    def reading(self, key: str) -> Stops:
+        """Return what a reader does who looks after each life, in five orders."""
+        return read_along(_verdicts(self.results, key))
+
+    def still(self) -> Still:
+        """Return the boxes after 3, 10 and all lives."""
+        results, lives = read_results(self.results), self.data["lives"][self.order]
+        taken = [lives[:n] for n in (*FRAMES, len(lives))]
+        goals = {arm.name: results.totals(arm.name) for arm in results.arms}
+        ends = [f(map(f, goals.values())) for f in (min, max)]
+        means = [
+            {arm: mean_interval(x[some], rng=0) for arm, x in goals.items()}
+            for some in taken
+        ]
+        frames = [
+            boxes_svg({arm: x[some] for arm, x in goals.items()}, mean, ends)
+            for some, mean in zip(taken, means, strict=True)
+        ]
+        found, trap = self.reading("1"), self.reading(SAME)
+        signed = sum(map(bool, trap.stops))
+        caption = (
+            f"When would you sign? Claim 1 comes out as \u201c{found.verdict}\u201d "
+            f"from {found.settled} lives on, in each of {len(found.stops)} orders of "
+            f"{len(lives)} lives. But of {len(trap.stops)} comparisons of an arm with "
+            f"itself, a reader who looks after each life from life {FIRST_LOOK} on, "
+            f"and signs as soon as the interval leaves 0, signs {signed}: "
+            f"{signed / len(trap.stops):.0%}."
+        )
+        texts = [
+            {arm: "{:,.0f} [{:,.0f}, {:,.0f}]".format(*mean) for arm, mean in m.items()}
+            for m in means
+        ]
+        rows = [(arm, *(text[arm] for text in texts)) for arm in goals]
+        head = ("arm", *(f"mean of {len(some)} lives, interval" for some in taken))
+        return Still(frames, caption, head, rows)
+
+
+@lru_cache(maxsize=4)
+def _data(name: str) -> dict:
+    """Return all that the browser needs of stored results."""
+    results = read_results(name)
+    lives, partners = orders(results.goals.shape[1])
+    titles = {claim.key: claim.title for claim in CLAIMS}
+    return {
+        "arms": [arm.name for arm in ARMS],
+        "totals": [results.totals(arm.name).tolist() for arm in ARMS],
+        "lives": lives.tolist(),
+        "partners": partners.tolist(),
+        "firstLook": FIRST_LOOK,
+        "readings": {key: read_along(_verdicts(name, key))._asdict() for key in KEYS},
+        "claims": {
+            key: {
+                "title": titles.get(key, ""),
+                "compared": [list(c) for c in comparisons(results, key)],
+            }
+            for key in KEYS
+        },
+    }
+
+
+@lru_cache(maxsize=16)
+def _verdicts(name: str, key: str) -> list[list[str]]:
+    return tracks(read_results(name), key)
