@@ -21,7 +21,7 @@ from pathlib import Path
 import yaml
 from one_page import ROOT, one_page, parts
 
-from abstransfer.doctor import check_browser
+from abstransfer.cli.doctor import check_browser
 
 HTML = ROOT / "build" / "_build" / "html"
 OUT = ROOT / "build" / "abstransfer.pdf"

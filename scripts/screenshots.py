@@ -15,7 +15,7 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-from abstransfer.doctor import check_browser
+from abstransfer.cli.doctor import check_browser
 
 HTML = Path(__file__).parents[1] / "build" / "_build" / "html"
 WIDTHS = (1440, 400)

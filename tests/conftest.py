@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from abstransfer.doctor import check_browser
+from abstransfer.cli.doctor import check_browser
 
 ROOT = Path(__file__).parents[1]
 HTML = ROOT / "build" / "_build" / "html"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from abstransfer import doctor
+from abstransfer.cli import doctor
 
 ROOT = Path(__file__).parents[1]
 

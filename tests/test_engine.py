@@ -8,7 +8,7 @@ import pytest
 from conftest import unavailable
 from golden.write_golden import GOLDEN, as_json, read
 
-from abstransfer.doctor import check_node
+from abstransfer.cli.doctor import check_node
 
 ROOT = Path(__file__).parents[1]
 TOLERANCE = 1e-10  # of values; another processor may round them in another way

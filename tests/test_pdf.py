@@ -13,7 +13,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import one_page
 import pdf
 
-from abstransfer.doctor import Check
+from abstransfer.cli.doctor import Check
 
 TOC = yaml.safe_load((ROOT / "book" / "_toc.yml").read_text(encoding="utf-8"))
 TWO = [("", ["00_race", "notation"])]

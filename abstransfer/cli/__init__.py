@@ -13,11 +13,11 @@ import os
 import sys
 from functools import partial
 
-from ._cli_experiment import add_experiment, add_figures
-from ._cli_learn import add_learn
-from .driving import format_table1, table1
-from .maps import read_map
-from .navigation import navigation_tasks
+from ..driving import format_table1, table1
+from ..maps import read_map
+from ..navigation import navigation_tasks
+from .experiment import add_experiment, add_figures
+from .learn import add_learn
 
 
 def main(argv: list[str] | None = None) -> int:

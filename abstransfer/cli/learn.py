@@ -9,10 +9,10 @@ import json
 
 import numpy as np
 
-from .experiments.arms import ARMS, PAPER_STEPS, STRATEGIES, Scale
-from .experiments.problem import GUIDES, Reading, build_guides
-from .experiments.workers import Job, run_job
-from .maps import read_map
+from ..experiments.arms import ARMS, PAPER_STEPS, STRATEGIES, Scale
+from ..experiments.problem import GUIDES, Reading, build_guides
+from ..experiments.workers import Job, run_job
+from ..maps import read_map
 
 MAP_HELP = "a map file, or the name of a map that comes with the package"
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import sys
 
-from ._cli_learn import MAP_HELP, add_reading, count, option, progress_bar, reading_of
-from ._paths import DATA
-from .experiments.arms import SCALES
-from .experiments.plan import SEED
+from .._paths import DATA
+from ..experiments.arms import SCALES
+from ..experiments.plan import SEED
+from .learn import MAP_HELP, add_reading, count, option, progress_bar, reading_of
 
 
 def add_experiment(commands) -> None:
@@ -61,8 +61,8 @@ def add_figures(commands) -> None:
 
 
 def _run_experiment(arguments) -> int:
-    from .experiments.run import run_experiment
-    from .reproduction.catalogue import Experiment, arms_of, reproduce
+    from ..experiments.run import run_experiment
+    from ..reproduction.catalogue import Experiment, arms_of, reproduce
 
     if arguments.everything and (arguments.reward, arguments.target) != (
         "goal",
@@ -111,7 +111,7 @@ def _run_experiment(arguments) -> int:
 
 def _summary(out: str) -> str:
     """Return one line for each experiment in a folder."""
-    from .reproduction.figures import finished_experiments
+    from ..reproduction.figures import finished_experiments
 
     lines = []
     for name, results in finished_experiments(out).items():
@@ -125,7 +125,7 @@ def _summary(out: str) -> str:
 
 
 def _run_figures(arguments) -> int:
-    from .reproduction.figures import make_figures
+    from ..reproduction.figures import make_figures
 
     make_figures(arguments.results, arguments.out, on_file=print)
     return 0
