@@ -5,9 +5,9 @@ Run it after a change that means to change results::
 
     python tests/golden/write_golden.py
 
-``tests/test_engine.py`` checks that the files are what the code finds today, and
-``tests/js`` that the browser's engine finds the same.  Whole numbers and learning
-runs must be equal; long arrays of whole numbers are kept as a digest.
+``tests/scenes/test_engine.py`` checks that the files are what the code finds today,
+and ``tests/scenes/js`` that the browser's engine finds the same.  Whole numbers and
+learning runs must be equal; long arrays of whole numbers are kept as a digest.
 """
 
 import hashlib

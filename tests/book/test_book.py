@@ -1,0 +1,139 @@
+"""The built book as files: whole, described, and free of the network."""
+
+import re
+from functools import cache
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from bs4 import BeautifulSoup
+from support import ROOT, toc_pages
+
+PAGES = toc_pages()
+LOADS = {  # what a browser fetches by itself, and from which attribute
+    "script": "src",
+    "img": "src",
+    "iframe": "src",
+    "source": "src",
+    "video": "src",
+    "audio": "src",
+    "embed": "src",
+    "object": "data",
+    "image": "href",
+    "link": "href",
+}
+
+
+@cache
+def soup(path):
+    return BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
+
+
+@cache
+def anchors(path):
+    return {tag["id"] for tag in soup(path).find_all(id=True)}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_of_the_table_of_contents_is_there_and_says_something(html, name):
+    article = soup(html / f"{name}.html").find("article")
+
+    assert len(article.get_text(" ", strip=True).split()) >= 50
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_has_one_first_heading(html, name):
+    # The theme adds one to each page that only a printer shows.
+    article = soup(html / f"{name}.html").find("article")
+
+    assert len(article.find_all("h1")) == 1
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_tables_and_examples_are_drawn_as_such(html, name):
+    path = html / f"{name}.html"
+    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").article
+    for tag in article.find_all(["pre", "code"]):
+        tag.decompose()
+    text = article.get_text()
+
+    assert not re.findall(r".*(?:\|\s*:?---|>>> ).*", text), (
+        "Markdown or Python as text"
+    )
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_every_picture_is_described(html, name):
+    for picture in soup(html / f"{name}.html").find("article").find_all("img"):
+        alt = picture.get("alt", "")
+        assert 40 <= len(alt) <= 300, f"{picture['src']}: {alt!r}"
+        assert not alt.startswith("_images/")
+
+
+def test_no_page_loads_anything_from_elsewhere(html):
+    remote = [
+        (path.name, tag.name, tag[LOADS[tag.name]])
+        for path in html.glob("**/*.html")
+        for tag in soup(path).find_all(list(LOADS))
+        if urlsplit(tag.get(LOADS[tag.name], "")).netloc
+    ]
+
+    assert remote == []
+
+
+def test_no_style_loads_anything_from_elsewhere(html):
+    sheets = {path: path.read_text() for path in html.glob("**/*.css")}
+    for path in html.glob("**/*.html"):
+        inline = [tag.get_text() for tag in soup(path).find_all("style")]
+        sheets[path] = "\n".join(inline)
+    remote = r"(?:url\(\s*['\"]?|@import\s+['\"])(?:https?:)?//[^'\")]*"
+
+    assert len(sheets) > len(PAGES)
+    assert {p.name: re.findall(remote, text) for p, text in sheets.items()} == {
+        p.name: [] for p in sheets
+    }
+
+
+def test_no_script_in_a_page_names_another_host(html):
+    for path in html.glob("**/*.html"):
+        for script in soup(path).find_all("script", src=False):
+            assert not re.search(r"['\"](?:https?:)?//", script.get_text()), path.name
+
+
+def is_place(page, name):
+    """Return whether a page has such an anchor, or a scene of which it is a moment."""
+    moment = re.fullmatch(r"(\w+)\.\w+=.+", name)
+    if moment:
+        return bool(soup(page).find(attrs={"data-scene": moment[1]}))
+    return name in anchors(page)
+
+
+def test_every_link_inside_the_book_leads_somewhere(html):
+    broken = []
+    for path in html.glob("**/*.html"):
+        for link in soup(path).find_all("a", href=True):
+            url = urlsplit(link["href"])
+            if url.scheme or url.netloc:
+                continue
+            goal = (path.parent / unquote(url.path)).resolve() if url.path else path
+            place = unquote(url.fragment) if goal.suffix == ".html" else ""
+            if not goal.is_file() or place and not is_place(goal, place):
+                broken.append((path.name, link["href"]))
+
+    assert broken == []
+
+
+def test_every_page_in_the_folder_is_in_the_table_of_contents():
+    written = [p for p in (ROOT / "book").glob("*") if p.suffix in (".md", ".ipynb")]
+
+    assert sorted(page.stem for page in written) == sorted(PAGES)
+
+
+def test_every_public_module_is_in_the_reference():
+    reference = (ROOT / "book" / "api.md").read_text()
+    listed = re.findall(r"automodule:: abstransfer\.(\w+)", reference)
+    modules = {path.stem for path in (ROOT / "abstransfer").glob("[a-z]*.py")}
+
+    assert len(listed) == len(set(listed))
+    missing = modules - {"cli"} - set(listed)
+    assert not missing, "each needs a section in book/api.md"
+    assert set(listed) <= modules

@@ -1,0 +1,138 @@
+"""The pages as text: quizzes, headings, times, spelling, links to exercises."""
+
+import json
+import re
+import subprocess
+import sys
+
+import pytest
+from bs4 import BeautifulSoup
+from support import ROOT, toc_pages
+
+sys.path.insert(0, str(ROOT / "scripts"))
+import reading_level
+from page_times import stated_seconds
+
+BOOK = ROOT / "book"
+LESSONS = sorted(BOOK.glob("[0-9]*.ipynb"))
+TEXTS = sorted([*BOOK.glob("*.md"), *BOOK.glob("*.ipynb")])
+CHOICE = re.compile(r"^```\{dropdown\} ([^\n]+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+QUESTION = re.compile(r"^\*\*(\d)\.\*\* ", re.MULTILINE)
+
+
+def text_of(path):
+    if path.suffix == ".md":
+        return path.read_text(encoding="utf-8")
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    return "\n\n".join(
+        "".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"
+    )
+
+
+@pytest.fixture(params=LESSONS, ids=lambda path: path.stem)
+def lesson(request):
+    return text_of(request.param)
+
+
+def questions(lesson):
+    """Return the choices of each question of the quiz: (title, reply)."""
+    _, _, quiz = lesson.partition("\n## Quiz\n")
+    quiz = re.split(r"^## ", quiz, flags=re.MULTILINE)[0]
+    starts = [match.start() for match in QUESTION.finditer(quiz)]
+    parts = zip(starts, [*starts[1:], None], strict=True)
+    return [CHOICE.findall(quiz[start:end]) for start, end in parts]
+
+
+def test_a_quiz_has_three_questions_each_with_one_right_choice(lesson):
+    asked = questions(lesson)
+
+    assert len(asked) == 3
+    for choices in asked:
+        replies = [reply.strip() for _, reply in choices]
+        assert len(choices) >= 2
+        assert len(set(choices)) == len(choices)
+        assert sum(reply.startswith("Yes") for reply in replies) == 1
+        assert all(len(reply.split()) >= 4 for reply in replies), "a reply says why"
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
+def test_each_choice_of_a_quiz_opens_by_keyboard_on_the_built_page(html, path):
+    page = html / f"{path.stem}.html"
+    if path.stem not in toc_pages():
+        pytest.skip("not in the table of contents yet")
+    article = BeautifulSoup(page.read_text(), "html.parser").find("article")
+    opening = [details.find("summary") for details in article.find_all("details")]
+    titles = [" ".join(s.get_text(" ").split()) for s in opening if s]
+
+    # A browser opens a <summary> by Enter and space, without any script.
+    wanted = sum(map(len, questions(text_of(path))))
+    assert all(opening)
+    assert len(titles) >= wanted >= 6
+
+
+@pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.stem)
+def test_headings_start_at_the_first_level_and_skip_none(path):
+    text = re.sub(r"^(`{3,}).*?^\1", "", text_of(path), flags=re.DOTALL | re.MULTILINE)
+    levels = [len(mark) for mark in re.findall(r"^(#+) ", text, re.MULTILINE)]
+
+    assert levels.count(1) == 1
+    assert levels[0] == 1
+    assert all(b <= a + 1 for a, b in zip(levels, levels[1:], strict=False))
+
+
+def test_a_page_says_what_it_teaches_and_how_long_it_takes(lesson):
+    assert "```{admonition} By the end of this page you can" in lesson
+    assert re.search(r"^\*Time:\* \d+ minutes", lesson, re.MULTILINE)
+    assert stated_seconds(lesson) <= 120
+    assert "## Takeaways" in lesson
+    assert "{admonition} For the lecturer" in lesson
+
+
+def test_each_exercise_has_a_solution_and_belongs_to_an_outcome(lesson):
+    asked = re.findall(r"\{exercise-start\}\n:label: (\S+)", lesson)
+    solved = re.findall(r"\{solution-start\} (\S+)", lesson)
+    outcomes = lesson.partition("\n## ")[0]
+
+    assert len(asked) >= 3
+    assert asked == solved
+    assert all(f"<{key}>" in outcomes for key in asked)
+
+
+@pytest.mark.parametrize(
+    ("words", "seconds"),
+    [("about twenty seconds", 20), ("about half a minute", 30), ("5 seconds", 5)]
+    + [("about a minute", 60), ("less than two minutes", 120), ("one minute", 60)],
+)
+def test_stated_times_are_understood(words, seconds):
+    assert stated_seconds(f"The notebook runs in {words}.") == seconds
+
+
+def test_the_spelling_is_right(tmp_path):
+    """By codespell: it knows what is often misspelled, so new names pass."""
+    for path in TEXTS:
+        (tmp_path / f"{path.stem}.md").write_text(text_of(path), encoding="utf-8")
+    own = [*(ROOT / "abstransfer").rglob("*.py"), *(ROOT / "tests").rglob("*.py")]
+    own += [*ROOT.glob("*.md"), *(ROOT / "scripts").glob("*.py")]
+    words = ROOT / "tests" / "words.txt"
+    command = [sys.executable, "-m", "codespell_lib", "-I", words, tmp_path, *own]
+    done = subprocess.run(command, capture_output=True, text=True)
+
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_reading_level_of_every_page_is_reported(capsys):
+    assert reading_level.main([str(path) for path in LESSONS]) == 0
+
+    report = capsys.readouterr().out
+    assert all(path.stem in report for path in LESSONS)
+
+
+def test_long_sentences_are_harder_to_read():
+    short = reading_level.grade("The cat sat. The dog ran. It was fun.")
+    long = reading_level.grade(
+        "Notwithstanding considerable methodological heterogeneity, investigators "
+        "demonstrated statistically significant improvements throughout."
+    )
+
+    assert short < 3
+    assert long > 15

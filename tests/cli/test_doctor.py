@@ -1,0 +1,101 @@
+"""The machine check: what it finds, and what it advises."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+from abstransfer.cli import doctor
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_a_machine_that_runs_the_tests_has_all_packages():
+    checks = {check.name: check for check in doctor.diagnose()}
+
+    assert checks["numpy"] == ("numpy", True, metadata.version("numpy"), "")
+    assert "jupyter-book" in checks
+    assert all(check.ok for check in doctor.check_packages(("book", "test")))
+
+
+@pytest.mark.parametrize(
+    ("spec", "ok"),
+    [
+        ("pytest", True),
+        ("pytest>=1.0", True),
+        ("pytest>=999", False),
+        ("pytest>=1.0,<2", False),
+        ("pytest>=1,<999", True),
+    ],
+)
+def test_a_version_is_compared_with_both_bounds(spec, ok):
+    assert doctor.check_package(spec).ok is ok
+
+
+def test_a_whole_version_satisfies_a_longer_bound(monkeypatch):
+    monkeypatch.setattr(doctor.metadata, "version", lambda name: "2")
+
+    assert doctor.check_package("numpy>=2.0").ok
+
+
+def test_post_releases_count_as_their_release(monkeypatch):
+    monkeypatch.setattr(doctor.metadata, "version", lambda name: "1.0.4.post1")
+
+    assert doctor.check_package("jupyter-book<2,>=1.0.4").ok
+
+
+def test_what_is_missing_comes_with_a_remedy(monkeypatch, tmp_path):
+    monkeypatch.setattr(doctor.shutil, "which", lambda name: None)
+    monkeypatch.setattr(doctor.sys, "prefix", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "missing"))
+    missing = [check for check in doctor.diagnose() if not check.ok]
+
+    names = {check.name for check in missing}
+    assert names == {"jupyter kernel", "compiled code", "browser", "node"}
+    assert all(check.remedy for check in missing)
+
+
+def test_an_old_python_is_named(monkeypatch):
+    monkeypatch.setattr(doctor.sys, "version_info", (3, 10, 2))
+
+    check = doctor.check_python()
+    assert not check.ok
+    assert check.found == "3.10.2"
+    assert "3.11" in check.remedy
+
+
+def test_an_old_node_is_named(monkeypatch):
+    monkeypatch.setattr(doctor.shutil, "which", lambda name: "node")
+    answer = subprocess.CompletedProcess([], 0, stdout="v16.3.0\n")
+    monkeypatch.setattr(doctor.subprocess, "run", lambda *a, **k: answer)
+
+    check = doctor.check_node()
+    assert (check.ok, check.found) == (False, "16.3.0")
+
+
+def test_without_the_package_installed_it_says_how_to_install(monkeypatch):
+    def nothing(name):
+        raise metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(doctor.metadata, "requires", nothing)
+
+    (check,) = doctor.check_packages()
+    assert check.remedy == doctor.INSTALL
+
+
+def test_the_python_asked_for_is_the_one_of_the_package():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+
+    assert project["requires-python"] == f">={doctor.PYTHON}"
+
+
+def test_only_the_standard_library_is_imported():
+    source = Path(doctor.__file__).read_text()
+    imported = re.findall(r"^(?:from|import) (\w+)", source, flags=re.M)
+
+    assert imported
+    assert set(imported) <= sys.stdlib_module_names

@@ -1,0 +1,225 @@
+"""Exercises: right is right in any form, each usual mistake has its own reply."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from abstransfer.exercises import _check, all_exercises, check, exercises_of
+
+ALL = {exercise.key: exercise for exercise in all_exercises()}
+CODING = {key: exercise for key, exercise in ALL.items() if exercise.cases}
+MISTAKES = [
+    pytest.param(key, i, id=f"{key}-{wrong.name}".replace(" ", "_"))
+    for key, exercise in ALL.items()
+    for i, wrong in enumerate(exercise.wrong)
+]
+
+
+@pytest.fixture(autouse=True)
+def new_session(monkeypatch):
+    monkeypatch.setattr(_check, "_times_tried", {})
+
+
+class Odd:
+    def __array__(self, *args, **kwargs):
+        raise RuntimeError("no")
+
+
+ODD_VALUES = [None, ..., "words", np.nan, [np.nan, 1], [[1], [2, 3]], {}, {"a": 1}, 1j]
+ODD_VALUES += [np.zeros((3, 4, 5)), [], set(), Odd(), print, type, True, b"x", -1e300]
+
+
+def stops(*arguments):
+    raise ZeroDivisionError("division by zero")
+
+
+def leaves(*arguments):
+    sys.exit()
+
+
+def calls_itself(*arguments):
+    return calls_itself(*arguments)
+
+
+def warns(*arguments):
+    return np.array([0.0]) / np.array([0.0])
+
+
+def spoils(*arguments):
+    for argument in arguments:
+        if isinstance(argument, np.ndarray):
+            argument[...] = 0
+
+
+ODD_FUNCTIONS = [stops, leaves, calls_itself, warns, spoils, lambda: 0, lambda x: x]
+ODD_FUNCTIONS += [lambda *a, value=value: value for value in ODD_VALUES]
+
+
+def test_each_page_from_1_to_10_has_exercises():
+    assert all(exercises_of(page) for page in range(1, 11))
+
+
+@pytest.mark.parametrize("exercise", ALL.values(), ids=ALL)
+def test_an_exercise_is_whole(exercise):
+    page = int(exercise.key.split("-")[1])
+    names = [wrong.name for wrong in exercise.wrong]
+
+    assert exercise.key in exercises_of(page)
+    assert len(set(exercise.hints)) == 3
+    assert len(set(names)) == len(names)
+    assert len(names) >= (4 if exercise.cases else 1)
+    for words in (exercise.task, *exercise.hints, *(w.hint for w in exercise.wrong)):
+        assert "  " not in words, "two spaces where two strings meet"
+
+
+@pytest.mark.parametrize("exercise", ALL.values(), ids=ALL)
+def test_the_solution_is_right(exercise):
+    reply = check(exercise.key, exercise.solution)
+
+    assert reply
+    assert str(reply).startswith(f"{exercise.key}: right.")
+    assert reply._repr_markdown_().startswith(f"**{exercise.key}: right.**")
+
+
+@pytest.mark.parametrize("exercise", CODING.values(), ids=CODING)
+def test_a_solution_in_another_form_is_right(exercise):
+    assert exercise.same
+
+    for other in exercise.same:
+        assert check(exercise.key, other), other
+
+
+@pytest.mark.parametrize(("key", "i"), MISTAKES)
+def test_a_usual_mistake_gets_its_own_reply(key, i):
+    wrong = ALL[key].wrong[i]
+
+    reply = check(key, wrong.answer)
+
+    assert reply.verdict == "not yet"
+    assert reply.text == f"This looks like: *{wrong.name}*. {wrong.hint}"
+
+
+@pytest.mark.parametrize("exercise", ALL.values(), ids=ALL)
+def test_hints_come_in_three_steps(exercise):
+    """An unknown wrong answer gets the first hint, then the next; the last stays."""
+    strange = (lambda *a: 0.123456) if exercise.cases else 0.123456
+    if exercise.read.__name__ == "word":
+        strange = "perhaps"
+    if exercise.key == "ex-3-2":  # its actions are whole numbers
+        strange = lambda q_row, epsilon, rng: 1  # noqa: E731
+
+    texts = [check(exercise.key, strange).text for _ in range(4)]
+
+    for text, number in zip(texts, (1, 2, 3, 3), strict=True):
+        assert text.startswith(f"Hint {number} of 3: {exercise.hints[number - 1]}")
+
+
+def test_a_mistake_made_again_gets_a_hint_as_well():
+    wrong = ALL["ex-1-2"].wrong[0]
+
+    assert "Hint" not in check("ex-1-2", wrong.answer).text
+    assert "Hint 1 of 3" in check("ex-1-2", wrong.answer).text
+    assert wrong.hint in check("ex-1-2", wrong.answer).text
+
+
+def test_a_hint_can_be_asked_for():
+    reply = check("ex-1-2")
+
+    assert reply.verdict == "hint"
+    assert reply.text == f"Hint 1 of 3: {ALL['ex-1-2'].hints[0]}"
+
+
+@pytest.mark.parametrize("exercise", ALL.values(), ids=ALL)
+def test_odd_answers_get_kind_words(exercise):
+    odd = [*ODD_VALUES, *(ODD_FUNCTIONS if exercise.cases else ())]
+    if exercise.key == "ex-3-2":  # slow: each answer is called thousands of times
+        odd = odd[:8] + ODD_FUNCTIONS[:7]
+
+    for answer in odd:
+        reply = check(exercise.key, answer)
+        assert not reply or answer is True, answer
+        assert reply.text, answer
+        assert "0x" not in str(reply), "an address differs from run to run"
+
+
+def test_an_error_in_the_function_is_told_with_its_arguments():
+    reply = check("ex-8-1", lambda t, tau: t / 0)
+
+    assert reply.verdict == "no answer yet"
+    assert "ZeroDivisionError" in reply.text
+    assert "called with t=" in reply.text
+
+
+def test_a_blank_is_seen():
+    assert "blank" in check("ex-8-1", lambda t, tau: ...).text
+    assert "`return` missing" in check("ex-8-1", lambda t, tau: None).text
+
+
+def test_other_parameters_are_told():
+    assert "`advice_probability(t, tau)`" in check("ex-8-1", lambda t: 1).text
+
+
+def test_a_wrong_answer_is_shown_beside_the_right_one():
+    text = check("ex-8-1", lambda t, tau: 0.5).text
+
+    assert "Yours gives 0.5, not 0" in text
+
+
+def test_an_open_exercise_is_told_from_those_that_are_checked():
+    reply = check("ex-8-3", 1)
+
+    assert not reply
+    assert reply.verdict == "not checked"
+    assert "An open exercise has no check" in reply.text
+    assert "ex-8-1, ex-8-2" in reply.text
+
+
+@pytest.mark.parametrize("key", ["ex-99-1", "nonsense", None, 3, [], ""])
+def test_an_unknown_exercise_is_told(key):
+    reply = check(key, 1)
+
+    assert not reply
+    assert "no such exercise" in reply.text
+
+
+def test_the_answer_is_not_changed_and_not_asked_twice_the_same_way():
+    """A function that spoils its arguments does not spoil the next case."""
+    right = ALL["ex-7-1"].solution
+
+    def spoiling(P, r, gamma):
+        v = right(P, r, gamma)
+        P[:], r[:] = 0, 0
+        return v
+
+    assert check("ex-7-1", spoiling)
+
+
+def test_the_list_of_exercises_names_them_all():
+    done = subprocess.run(
+        [sys.executable, "-m", "abstransfer.exercises"],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=ROOT,
+    )
+
+    assert all(key in done.stdout for key in ALL)
+
+
+def test_the_lecturers_guide_holds_the_answers():
+    """Of each exercise that is answered by a number or a word, and no others."""
+    guide = (ROOT / "book" / "lecturers_guide.md").read_text(encoding="utf-8")
+    told = dict(re.findall(r"^\| (ex-\S+) \| (.*) \|$", guide, re.MULTILINE))
+    values = {key for key, exercise in ALL.items() if not exercise.cases}
+
+    assert set(told) == values
+    for key, answer in told.items():
+        if not isinstance(ALL[key].solution, str):
+            answer = float(answer.replace(",", ""))
+            assert answer == pytest.approx(ALL[key].solution, rel=1e-3)
+        else:
+            assert answer == ALL[key].solution

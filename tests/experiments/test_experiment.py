@@ -1,0 +1,339 @@
+"""Experiments: the same to the bit, however they are run, stored or interrupted."""
+
+import gzip
+import json
+import os
+import socket
+import threading
+from concurrent.futures import Executor, ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from support import unavailable
+
+from abstransfer import read_map
+from abstransfer.experiments import workers
+from abstransfer.experiments.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
+from abstransfer.experiments.plan import make_plan, parameters
+from abstransfer.experiments.problem import Reading, build_guides, target_tasks
+from abstransfer.experiments.results import (
+    Results,
+    load_results,
+    save_part,
+    save_results,
+)
+from abstransfer.experiments.run import run_experiment
+from abstransfer.learning import q_learning
+from abstransfer.policies import restrict_policy
+
+SMALL = Scale(30_000, 10_000)
+READING = Reading(target=read_map("source"))
+THREE = (ARMS[0], ARMS[3], ARMS[6])  # none, nd-hard, prob-soft
+N_RUNS = 8  # more than a job holds
+
+
+def run(arms=THREE, reading=READING, **options):
+    options = {"scale": SMALL, "n_runs": N_RUNS} | options
+    if "executor" in options or "n_workers" in options:
+        return run_experiment(arms, reading, **options)
+    with ThreadPoolExecutor(2) as executor:
+        return run_experiment(arms, reading, executor=executor, **options)
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return run()
+
+
+class NoExecutor(Executor):
+    """Fails if it is given work."""
+
+    def submit(self, *arguments, **options):
+        raise AssertionError("nothing was to be run")
+
+
+class Backwards(Executor):
+    """Runs what it was given last first."""
+
+    def __init__(self):
+        self.pool, self.waiting = ThreadPoolExecutor(1), []
+
+    def submit(self, function, job):
+        from concurrent.futures import Future
+
+        future = Future()
+        self.waiting.append((future, function, job))
+        n_jobs = 2 * len(THREE)
+        if len(self.waiting) == n_jobs:
+            for future_, function_, job_ in reversed(self.waiting):
+                future_.set_result(function_(job_))
+        return future
+
+
+def test_each_run_is_the_one_that_its_seed_and_arm_make(expected):
+    """Run 7 of prob-soft, alone, through the learner's own front door."""
+    tasks = target_tasks(READING)
+    guide = build_guides(READING, ["prob"])["prob"][tasks.rho]
+    alone = q_learning(
+        tasks.mdp,
+        SMALL.steps,
+        guide=restrict_policy(guide, tasks.mdp.allowed),
+        strategy="soft",
+        tau=SMALL.tau(THREE[2]),
+        window=SMALL.window,
+        rng=np.random.SeedSequence(2015, spawn_key=(0, 7)),
+    )
+
+    assert expected.goals.shape == (3, N_RUNS, 3)
+    assert expected.goals.any(axis=(1, 2)).all(), "an arm never reached a goal"
+    np.testing.assert_array_equal(expected.curves("prob-soft")[7], alone.goals)
+
+
+@pytest.mark.parametrize("n_workers", [1, 2])
+def test_the_number_of_processes_does_not_matter(n_workers, expected):
+    np.testing.assert_array_equal(run(n_workers=n_workers).goals, expected.goals)
+
+
+def test_the_order_of_jobs_does_not_matter(expected):
+    np.testing.assert_array_equal(run(executor=Backwards()).goals, expected.goals)
+
+
+def test_a_dask_cluster_gives_the_same(expected):
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        unavailable("distributed is not installed; pip install abstransfer[dask]")
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with LocalCluster(**options) as cluster, Client(cluster) as client:
+        found = run(executor=client.get_executor())
+
+    np.testing.assert_array_equal(found.goals, expected.goals)
+
+
+def test_the_number_of_runs_does_not_change_a_run(expected):
+    np.testing.assert_array_equal(run(n_runs=2).goals, expected.goals[:, :2])
+
+
+def test_run_i_of_every_arm_has_the_same_luck():
+    twins = (Arm("a", None, "hard", 0), Arm("b", None, "hard", 0))
+    goals = run(twins).goals
+
+    np.testing.assert_array_equal(goals[0], goals[1])
+    assert len({tuple(curve) for curve in goals[0]}) > 1, "all runs are equal"
+
+
+def test_seeds_that_tune_are_none_of_those_that_report(expected):
+    tuning = run(stream="tune")
+
+    assert not (tuning.goals == expected.goals).all(axis=2).any()
+
+
+def test_a_worker_that_is_told_to_stop_leaves_its_job(monkeypatch):
+    job = workers.Job(READING, "hard", 0, None, SMALL, (np.random.SeedSequence(1),))
+    monkeypatch.setattr(workers, "STOP", threading.Event())
+    calls = []
+
+    def after_the_first_window(n_steps):
+        calls.append(n_steps)
+        if n_steps:
+            workers.STOP.set()
+
+    with pytest.raises(InterruptedError):
+        workers.run_job(job, after_the_first_window)
+    assert calls == [0, SMALL.window]
+
+
+def test_own_guides_can_be_passed():
+    policy = build_guides(READING, ["nd"])["nd"]
+    named = run(
+        (Arm("mine", "my policy", "hard", 3_500_000),), guides={"my policy": policy}
+    )
+
+    np.testing.assert_array_equal(named.goals[0], run(THREE[1:2]).goals[0])
+
+
+def test_progress_is_told_in_steps():
+    told = []
+    run(THREE[:1], on_progress=lambda done, total: told.append((done, total)))
+
+    total = N_RUNS * SMALL.steps
+    assert told == [(0, total), *told[1:-1], (total, total)]
+    assert [done for done, _ in told] == sorted({done for done, _ in told})
+
+
+def test_what_is_stored_is_what_was_found(tmp_path, expected):
+    stored = run(out=tmp_path / "a")
+    loaded = load_results(tmp_path / "a")
+
+    np.testing.assert_array_equal(stored.goals, expected.goals)
+    np.testing.assert_array_equal(loaded.goals, expected.goals)
+    assert loaded.arms == THREE
+    assert sorted(os.listdir(tmp_path / "a")) == ["experiment.json", "goals.csv.gz"]
+
+
+def test_the_table_is_tidy_and_stable_to_the_byte(tmp_path, expected):
+    save_results(tmp_path / "a", expected)
+    save_results(tmp_path / "b", expected)
+    a, b = ((tmp_path / x / "goals.csv.gz").read_bytes() for x in "ab")
+    lines = gzip.decompress(a).decode().splitlines()
+
+    assert a == b
+    assert lines[0] == "arm,tau,run,window,goals"
+    assert lines[1] == f"none,0,0,0,{expected.goals[0, 0, 0]}"
+    assert len(lines) == 1 + expected.goals.size
+
+
+def test_the_record_says_what_made_it_and_nothing_of_the_machine(tmp_path):
+    run(out=tmp_path / "a")
+    text = (tmp_path / "a" / "experiment.json").read_text()
+    record = json.loads(text)
+
+    assert record["parameters"]["reading"]["target"]["name"] == "source"
+    assert record["parameters"]["runs"] == N_RUNS
+    assert set(record["versions"]) == {
+        "python",
+        "abstransfer",
+        "numpy",
+        "scipy",
+        "numba",
+    }
+    assert record["seconds"]["cores"] > 0
+    assert str(tmp_path) not in text
+    assert os.getcwd() not in text
+    assert f'"{socket.gethostname()}"' not in text
+
+
+def test_a_finished_experiment_is_read_not_run(tmp_path, expected):
+    run(out=tmp_path)
+    again = run(out=tmp_path, executor=NoExecutor())
+
+    np.testing.assert_array_equal(again.goals, expected.goals)
+
+
+def test_only_missing_runs_are_made(tmp_path, expected):
+    """A part with impossible goals stays: its runs were not repeated."""
+    plan = make_plan(THREE, READING, SMALL, N_RUNS)
+    folder = tmp_path / "a"
+    folder.mkdir()
+    (folder / "experiment.json").write_text(
+        json.dumps({"parameters": parameters(plan)})
+    )
+    save_part(folder, 1, 3, np.full((2, 3), 99_999), 1.0)
+    (folder / "parts" / ".001-0000-0003.npz.77").write_bytes(b"half a fi")
+    told = []
+    found = run(out=folder, on_progress=lambda done, total: told.append(done))
+
+    assert told[0] == 2 * SMALL.steps
+    assert (found.goals[1, 3:5] == 99_999).all()
+    found.goals[1, 3:5] = expected.goals[1, 3:5]
+    np.testing.assert_array_equal(found.goals, expected.goals)
+
+
+@pytest.mark.parametrize(
+    ("options", "difference"),
+    [
+        ({"n_runs": 9}, "parameters.runs is 8 there and 9 here"),
+        ({"seed": 1}, "parameters.seed is 2015 there and 1 here"),
+        ({"reading": Reading(target=READING.target, reward="cost")}, "reading.reward"),
+        ({"reading": Reading(target=READING.target, alpha=0.2)}, "alpha is 0.1 there"),
+        ({"reading": Reading()}, "target.name is 'source' there and 'target' here"),
+        ({"scale": Scale(30_000, 15_000)}, "parameters.window"),
+        ({"arms": THREE[:2]}, "parameters.arms is a list of 3 there"),
+        ({"arms": (*THREE[:2], THREE[2]._replace(tau=7))}, r"arms\[2\].tau is 6000000"),
+    ],
+)
+def test_a_folder_of_another_experiment_is_refused_by_name(
+    tmp_path, expected, options, difference
+):
+    record = {"parameters": parameters(make_plan(THREE, READING, SMALL, N_RUNS))}
+    save_results(tmp_path, expected._replace(record=record))
+    with pytest.raises(ValueError, match=difference):
+        run(out=tmp_path, executor=NoExecutor(), **options)
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        ({"n_runs": 0}, "n_runs must be at least 1, got 0"),
+        ({"scale": "huge"}, r"scale must be one of \('page', 'class', 'paper'\)"),
+        ({"scale": Scale(10, 3)}, "whole windows"),
+        ({"stream": "x"}, "stream must be one of"),
+        ({"seed": -1}, "seed must be at least 0"),
+        ({"n_workers": 0}, "n_workers must be at least 1"),
+        ({"arms": ()}, "at least one arm"),
+        (
+            {"arms": (ARMS[0], ARMS[0])},
+            r"differ in name or tau, got \('none', 0\) twice",
+        ),
+        ({"arms": (Arm("x", "nd", "medium", 0),)}, "strategy of arm 'x'"),
+        ({"arms": (Arm("x", "nd", "hard", -5),)}, "tau of arm 'x' .* got -5"),
+        ({"arms": (Arm("x", "nd", "hard", float("nan")),)}, "tau of arm 'x'"),
+        ({"arms": (Arm("x", "best", "hard", 5),)}, "guide of arm 'x' must be one of"),
+        ({"arms": (Arm("a,b", None, "hard", 0),)}, "plain word"),
+    ],
+)
+def test_bad_arguments_are_refused_before_a_step(tmp_path, options, complaint):
+    options = {"executor": NoExecutor(), "out": tmp_path / "new"} | options
+    with pytest.raises(ValueError, match=complaint):
+        run(**options)
+
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("reward", "gold"),
+        ("unavailable", "jump"),
+        ("success", 0.0),
+        ("q0", float("inf")),
+        ("alpha", 1.5),
+        ("epsilon", -0.1),
+        ("epsilon", float("nan")),
+        ("gamma", 1.1),
+        ("max_episode", 0),
+    ],
+)
+def test_a_bad_reading_is_refused_by_name(name, value):
+    with pytest.raises(ValueError, match=f"{name} must .* got {value!r}"):
+        Reading(**{name: value})
+
+
+def test_an_unfinished_folder_cannot_be_loaded(tmp_path):
+    with pytest.raises(FileNotFoundError, match="no results here"):
+        load_results(tmp_path)
+    (tmp_path / "experiment.json").write_text('{"parameters": {}}')
+    with pytest.raises(FileNotFoundError, match="not finished"):
+        load_results(tmp_path)
+
+
+def test_a_table_that_does_not_fit_its_record_is_refused(tmp_path, expected):
+    record = {"parameters": parameters(make_plan(THREE, READING, SMALL, N_RUNS))}
+    swapped = Results(THREE[::-1], expected.goals, record)
+    save_results(tmp_path, swapped)
+    with pytest.raises(ValueError, match="not the table"):
+        load_results(tmp_path)
+
+
+def test_the_nine_arms_have_the_papers_tau_and_the_grid_holds_them():
+    assert [arm.tau / 1e6 for arm in ARMS] == [0, 9, 19, 3.5, 11, 3.5, 6, 3.5, 6]
+    assert {arm.tau for arm in ARMS if arm.guide} <= set(TAUS)
+    assert len(tau_cells()) == 8 * len(TAUS)
+
+
+@pytest.mark.parametrize(("scale", "share"), [("page", 30), ("class", 3), ("paper", 1)])
+def test_a_smaller_scale_shrinks_steps_and_tau_alike(scale, share):
+    assert SCALES[scale].steps * share == 30_000_000
+    assert SCALES[scale].steps % SCALES[scale].window == 0
+    assert SCALES[scale].tau(ARMS[3]) == round(3_500_000 / share)
+
+
+def test_masked_actions_and_the_cost_reward_can_be_learned_with():
+    goals = [
+        run(
+            THREE, Reading(target=READING.target, unavailable="masked", reward=reward)
+        ).goals
+        for reward in ("goal", "cost")
+    ]
+
+    assert (goals[0] != goals[1]).any()

@@ -1,0 +1,150 @@
+"""A page that holds one scene, opened from a file with the network cut."""
+
+from importlib.resources import files
+
+import pytest
+from support import Visit
+
+from abstransfer.scenes import files as _scene_files
+
+AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
+PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>A scene</title>
+<meta name="viewport" content="width=device-width"><style>{style}</style></head>
+<body><main><h1>A scene</h1>{scene}</main><script>{script}</script></body></html>"""
+FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
+
+
+class SceneTab:
+    """A scene as a reader handles it."""
+
+    def __init__(self, visit):
+        self.visit, self.page = visit, visit.page
+        self.root = self.page.locator(".abstransfer-scene")
+        self.grid = self.root.locator(".ab-building")
+
+    @property
+    def problems(self):
+        return self.visit.problems
+
+    def settle(self):
+        self.page.evaluate(FRAMES)
+        return self
+
+    def click(self, name):
+        self.root.get_by_role("button", name=name).click()
+        return self.settle()
+
+    def pick(self, group, text):
+        inside = self.root.get_by_role("group", name=group)
+        inside.get_by_text(text, exact=True).click()
+        return self.settle()
+
+    def press(self, *keys):
+        for key in keys:
+            self.page.keyboard.press(key)
+        return self.settle()
+
+    def cell(self, number):
+        return self.root.locator(f'[data-cell="{number}"]')
+
+    def click_cell(self, number, x=0.5, y=0.5):
+        """Click in a cell, x and y in shares of its width and height."""
+        box = self.cell(number).bounding_box()
+        self.page.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
+        return self.settle()
+
+    def focus_grid(self):
+        self.grid.locator('[tabindex="0"]').focus()
+        return self
+
+    @property
+    def focused(self):
+        """The name of what has the focus."""
+        return self.page.evaluate(
+            "(e => e.getAttribute('aria-label') || e.textContent)"
+            "(document.activeElement)"
+        )
+
+    @property
+    def closing(self):
+        return self.root.locator(".ab-closing").inner_text()
+
+    def rows(self):
+        """The table of numbers, by the text in its first column."""
+        twin = self.root.locator(".ab-twin")
+        if twin.get_attribute("open") is None:
+            twin.locator("summary").click()
+        self.settle()
+        return self.page.evaluate(
+            "() => Object.fromEntries("
+            "[...document.querySelectorAll('.ab-twin tbody tr')]"
+            ".map(row => [...row.cells].map(cell => cell.textContent))"
+            ".map(([name, ...rest]) => [name, rest]))"
+        )
+
+    def url_with(self, part):
+        self.page.wait_for_function("part => location.hash.includes(part)", arg=part)
+        return self.page.url[self.page.url.index("#") :]
+
+    def violations(self):
+        self.page.evaluate(AXE)
+        result = self.page.evaluate("axe.run('.abstransfer-scene')")
+        assert len(result["passes"]) > 10
+        return [
+            (violation["id"], node["html"], node["failureSummary"])
+            for violation in result["violations"]
+            for node in violation["nodes"]
+        ]
+
+    def small_controls(self):
+        """Controls that are less than 24 px wide or high."""
+        return self.root.locator(
+            "button, input, select, summary, textarea"
+        ).evaluate_all(
+            "all => all.map(e => [e.outerHTML, (e.closest('label') ?? e)"
+            ".getBoundingClientRect()]).filter(([, box]) => box.width)"
+            ".filter(([, box]) => box.width < 24 || box.height < 24)"
+        )
+
+
+@pytest.fixture
+def open_scene(chromium, tmp_path):
+    """Open a page with a scene: ``open_scene(widget, width=400, query="#...")``."""
+    contexts = []
+
+    def open_page(widget, query="", width=1440, **options):
+        viewport = {"width": width, "height": 900}
+        contexts.append(chromium.new_context(viewport=viewport, **options))
+        visit = Visit(contexts[-1], tmp_path)
+        html = PAGE.format(
+            style=_scene_files.style(),
+            script=_scene_files.page_script(),
+            scene=widget if isinstance(widget, str) else widget.html(),
+        )
+        (tmp_path / "scene.html").write_text(html, encoding="utf-8")
+        visit.open("scene", query)
+        visit.page.wait_for_selector(".ab-live")
+        return SceneTab(visit).settle()
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+def bare(kind, **options):
+    """Return what a scene mounts on, without its still picture: quick."""
+    scene = kind(**options)
+    scene.still = lambda: _Nothing()
+    scene.options = lambda: scene.changed
+    return scene.html()
+
+
+class _Nothing:
+    def html(self):
+        return ""
+
+
+def number(text):
+    """Return the number that a scene prints."""
+    return float(text.replace("\u2212", "-").replace(",", ""))

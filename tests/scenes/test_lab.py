@@ -1,0 +1,175 @@
+"""A scene in a real JupyterLab: the browser and Python change the same state."""
+
+import os
+import secrets
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from importlib.util import find_spec
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_notebook
+from playwright.sync_api import expect
+from support import unavailable
+
+CELL = "from abstransfer import scenes\n\n{0} = scenes.{0}()\n{0}"
+SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to push
+    "Microscope": ("Step", "t", 110, 7),
+    "Race": ("Step", "t", 38, 7),
+    "TauSlider": ("Advice until step τ", "tau", 8_500_000, 6_000_000),
+    "Ballot": ("The dial: β", "beta", 2.5, 0.5),
+    "Paint": ("Goal of the small building", "task", 5, 2),
+    "Hill": ("Iteration", "t", 20, 7),
+    "Ripple": ("Sweep", "k", 8, 3),
+    "Dial": ("Luck: run", "luck", 2, 5),
+    "Ladder": ("A move succeeds with probability", "success", 0.8, 0.65),
+    "Project": ("Lives of each", "lives", 3, 7),
+    "Filling": ("Lives", "n", 20, 7),
+}
+SCENES = [*SLIDERS, "Studio"]
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    """The address of a JupyterLab of its own, with one notebook of all scenes."""
+    if not find_spec("jupyterlab"):
+        unavailable("JupyterLab is not installed; run: pip install -e '.[test]'")
+    folder = tmp_path_factory.mktemp("lab")
+    cells = [new_code_cell(CELL.format(name)) for name in SCENES]
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    cells.append(new_code_cell("1"))
+    notebook = new_notebook(cells=cells, metadata={"kernelspec": kernel})
+    nbformat.write(notebook, folder / "scenes.ipynb")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    token = secrets.token_hex(16)
+    options = {
+        "ServerApp.ip": "127.0.0.1",
+        "ServerApp.port": port,
+        "ServerApp.root_dir": folder,
+        "ServerApp.open_browser": False,
+        "ServerApp.allow_root": True,
+        "IdentityProvider.token": token,
+    }
+    homes = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR")
+    env = {**os.environ, **{home: str(folder / home.lower()) for home in homes}}
+    settings = folder / "jupyter_config_dir/lab/user-settings/@jupyterlab"
+    settings /= "notebook-extension/tracker.jupyterlab-settings"
+    settings.parent.mkdir(parents=True)
+    settings.write_text('{"windowingMode": "none"}')  # cells out of view exist too
+    tool = Path(sys.executable).with_name("jupyter-lab")
+    command = [tool, *(f"--{name}={value}" for name, value in options.items())]
+    address = f"http://127.0.0.1:{port}"
+    with (folder / "log").open("w") as log:
+        server = subprocess.Popen(command, env=env, stdout=log, stderr=log)
+        try:
+            wait_for(f"{address}/api", server, folder / "log")
+            yield f"{address}/lab/tree/scenes.ipynb?token={token}"
+        finally:
+            server.terminate()
+            server.wait(10)
+
+
+def wait_for(url, server, log):
+    for _ in range(300):
+        if server.poll() is not None:
+            unavailable(f"JupyterLab did not start: {log.read_text()[-500:]}")
+        try:
+            urllib.request.urlopen(url, timeout=1)
+            return
+        except OSError:
+            time.sleep(0.1)
+    pytest.fail("JupyterLab does not answer")
+
+
+@pytest.fixture(scope="module")
+def page(lab, chromium):
+    """A tab in which the notebook was run; nothing may fail or be fetched there."""
+    context = chromium.new_context(viewport={"width": 1400, "height": 1200})
+    elsewhere, problems = [], []
+    context.route(
+        lambda url: (
+            "//127.0.0.1:" not in url and not url.startswith(("data:", "blob:"))
+        ),
+        lambda route: (elsewhere.append(route.request.url), route.abort()),
+    )
+    page = context.new_page()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.goto(lab)
+    page.locator(".jp-CodeCell").last.wait_for(timeout=60_000)
+    page.get_by_text("| Idle").wait_for(timeout=60_000)
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+    page.get_by_text("| Idle").wait_for(timeout=60_000)
+    for number in range(len(SCENES)):
+        scene_of(page, number).wait_for(timeout=60_000)
+    yield page
+    assert problems == []
+    assert elsewhere == []
+    assert "#" not in page.url
+    context.close()
+
+
+def scene_of(page, number):
+    """Return the scene of a cell."""
+    page.locator(".jp-CodeCell").nth(number).scroll_into_view_if_needed()
+    return (
+        page.locator(".jp-CodeCell").nth(number).locator(".abstransfer-scene.ab-live")
+    )
+
+
+def run_last_cell(page, code):
+    """Type a line into the last cell, run it, and return what it said."""
+    cell = page.locator(".jp-CodeCell").last
+    cell.locator(".cm-content").click()
+    page.keyboard.press("Control+a")
+    page.keyboard.type(code)
+    page.keyboard.press("Control+Enter")
+    output = cell.locator(".jp-OutputArea-output", has_text="said")
+    output.wait_for(timeout=20_000)
+    return output.inner_text().strip()
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_the_browser_and_python_share_the_state_of_a_scene(page, name):
+    label, trait, moved, pushed = SLIDERS[name]
+    slider = scene_of(page, SCENES.index(name)).get_by_role("slider", name=label)
+
+    slider.fill(str(moved))
+    page.wait_for_timeout(500)  # the change is on its way
+    slider.press("ArrowLeft")  # JupyterLab must not take it for a command
+    expect(slider).not_to_have_value(str(moved))
+    slider.press("ArrowRight")
+    expect(slider).to_have_value(str(moved))
+    page.wait_for_timeout(500)
+    assert run_last_cell(page, f"print('said', {name}.{trait})") == f"said {moved}"
+
+    assert run_last_cell(page, f"{name}.{trait} = {pushed}; print('said so')")
+    expect(slider).to_have_value(str(pushed))
+
+
+def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page):
+    scene = scene_of(page, SCENES.index("Studio"))
+
+    scene.get_by_role("button", name="The target").click()
+    page.wait_for_timeout(500)
+    said = run_last_cell(page, "print('said', repr(Studio.map))")
+    assert said == "said Map(18 x 30 cells, 35 rooms, 35 goals)"
+
+    assert run_last_cell(page, "Studio.map = 'source'; print('said so')")
+    expect(scene.get_by_text("135 cells").first).to_be_visible()
+
+
+def test_scenes_of_one_notebook_do_not_share_names(page):
+    """Each brings the scripts anew; a label must still find its own control."""
+    ids = page.locator(".abstransfer-scene [id]").evaluate_all(
+        "all => all.map(e => e.id)"
+    )
+
+    assert ids
+    assert len(ids) == len(set(ids))

@@ -1,0 +1,197 @@
+"""Box plots that fill: the page's own bootstrap and verdicts, life by life."""
+
+import json
+
+import numpy as np
+import pytest
+from scene_tab import bare, number
+
+from abstransfer.experiments import stats
+from abstransfer.experiments.results import read_results
+from abstransfer.reproduction.optional_stopping import (
+    KEYS,
+    SAME,
+    orders,
+    read_along,
+    tracks,
+)
+from abstransfer.scenes import Filling
+
+RESULTS = read_results("goal-target")
+READINGS = {key: read_along(tracks(RESULTS, key)) for key in KEYS}
+READ = """async key => {
+    const at = abstransfer;
+    const host = document.querySelector(".abstransfer-scene");
+    const { data } = JSON.parse(host.dataset.options);
+    const tracks = [];
+    for (let k = 0; k < 5; k++) {
+        const mine = [];
+        for (let n = 2; n <= 50; n++) {
+            const found = at.filling.findingsOf(data, key, k, n);
+            const verdicts = at.filling.verdictsOf(found, key);
+            verdicts.forEach((v, i) => (mine[i] ??= []).push(v));
+        }
+        tracks.push(...mine);
+    }
+    return tracks;
+}"""
+
+
+@pytest.fixture
+def page(show):
+    """The scene without its still picture: quick."""
+
+    def open_page(query="", **options):
+        widget = bare(Filling)
+        data = json.dumps(Filling().options()).replace('"', "&quot;")
+        return show(widget.replace("{}", data), query, **options)
+
+    return open_page
+
+
+def sign(scene):
+    scene.button("I sign now").click()
+    return scene.settle()
+
+
+# What Python says
+
+
+def test_the_still_picture_states_both_sides():
+    caption = Filling().still().caption
+    trap = READINGS[SAME]
+
+    assert (
+        f"\u201c{READINGS['1'].verdict}\u201d from {READINGS['1'].settled}" in caption
+    )
+    assert f"of {len(trap.stops)} comparisons" in caption
+    assert f"signs {trap.wrong}: {trap.wrong / len(trap.stops):.0%}." in caption
+
+
+def test_python_has_the_verdict_of_the_scene_and_other_results():
+    scene = Filling(claim="2", order=3, n=2)
+    assert scene.verdict() == tracks(RESULTS, "2")[3][0]
+    assert repr(scene) == "Filling(claim='2', n=2, order=3)"
+    scene.results = "goal-target_c"
+
+    wanted = read_results("goal-target_c").totals("prob-soft").tolist()
+    assert wanted in scene.data["totals"]
+    assert repr(scene).endswith("results='goal-target_c')")
+
+
+# In the page
+
+
+def test_verdicts_are_pythons_life_by_life_in_all_orders(page):
+    scene = page()
+
+    for key in ("2", "4", SAME):  # a condition, a margin, and many tracks
+        assert scene.page.evaluate(READ, key) == tracks(RESULTS, key)
+    drawn = np.random.default_rng(0).integers(0, 37, (2000, 37)).ravel()
+    lives = scene.page.evaluate("Array.from(abstransfer.filling.drawn(37))")
+    assert lives == drawn.tolist()
+
+
+@pytest.mark.parametrize(("order", "n"), [(0, 2), (2, 17), (4, 50)])
+def test_the_table_has_the_numbers_of_the_pages_functions(page, order, n):
+    scene = page(f"#filling.order={order}&filling.n={n}&filling.claim=2")
+    scene.bet("more than 30")
+    rows, lives = scene.rows(), orders(50)[0][order][:n]
+
+    for arm, name in [("none", "Q-learning"), ("nd-soft", "ND soft")]:
+        wanted = stats.mean_interval(RESULTS.totals(arm)[lives], rng=0)
+        assert rows[name][:3] == [f"{end:,.0f}" for end in wanted]
+    gain = stats.relative_gain(
+        *(RESULTS.totals(arm)[lives] for arm in ("prob-soft", "prob-hard")), rng=0
+    )
+    found = [
+        number(text.removesuffix(" %")) for text in rows["prob-soft over prob-hard"][:3]
+    ]
+    np.testing.assert_allclose(found, [100 * end for end in gain], atol=0.0501)
+    assert tracks(RESULTS, "2")[order][n - 2] in scene.root.inner_text()
+    assert scene.problems == []
+
+
+def test_it_asks_first_and_ends_in_both_sentences(page):
+    scene = page()
+    assert scene.root.locator(".ab-chart:visible").count() == 1
+    assert scene.root.get_by_role("button", name="I sign now").count() == 0
+    scene.bet("6 to 15")
+    assert scene.root.locator(".ab-chart:visible").count() == 2
+    sign(scene)
+
+    one, trap = READINGS["1"], READINGS[SAME]
+    assert scene.closing.startswith(
+        "You bet on \u201c6 to 15\u201d; it was \u201c2 to 5 lives\u201d."
+    )
+    assert f"all 50 say \u201c{one.verdict}\u201d" in scene.closing
+    assert f"From {one.settled} lives on" in scene.closing
+    assert f"wrong in {one.wrong} of 5 orders" in scene.closing
+    scene.pick("Claim", "each arm against itself")
+    assert scene.closing == ""
+    sign(scene)
+
+    assert f"signs {trap.wrong} of 45 comparisons" in scene.closing
+    assert f"{100 * trap.wrong / 45:.0f} % wrong" in scene.closing
+    assert scene.violations() == []
+    assert scene.problems == []
+
+
+def test_by_keyboard_alone_to_the_end_in_the_dark_on_a_phone(page):
+    scene = page(width=400, color_scheme="dark", reduced_motion="reduce")
+    keys, focus = scene.page.keyboard, "document.activeElement"
+    ground = "getComputedStyle(document.querySelector('.abstransfer-scene')).color"
+    before = scene.page.evaluate(ground)
+    scene.page.evaluate("document.documentElement.dataset.theme = 'dark'")
+    assert scene.page.evaluate(ground) != before
+    for _ in range(20):
+        keys.press("Tab")
+        if scene.page.evaluate(f"{focus}.closest('.ab-bet') !== null"):
+            scene.press("Space")
+        if scene.page.evaluate(f"{focus}.type === 'range'"):
+            scene.press("ArrowRight", "ArrowRight")
+        if scene.focused == "I sign now":
+            keys.press("Enter")
+            break
+    scene.wait("all 50 say", ".ab-closing")
+
+    assert scene.closing.startswith("You bet on \u201c2 to 5 lives\u201d: right.")
+    assert "after 5 lives" in scene.closing
+    scene.wait("all 50 say", "[aria-live]")
+    assert scene.page.evaluate("document.documentElement.scrollWidth") <= 400
+    assert scene.small_controls() == []
+    assert scene.violations() == []
+    assert scene.problems == []
+
+
+def test_ends_of_the_slider_quick_changes_and_the_time_they_take(page):
+    scene = page("#filling.claim=5").bet("2 to 5 lives")
+    assert scene.seconds_per_move(".ab-timeline input", 5) < 0.1
+    slider = scene.slider("Lives")
+    for value in ("2", "50", "7", "31", "12"):
+        slider.fill(value)
+    scene.settle()
+
+    assert (
+        "After 12 lives: claim 5 holds (8 of its 8 findings hold)."
+        in scene.root.inner_text()
+    )
+    sign(scene)
+    scene.url_with("filling.signed=12")
+    scene.pick("Order of the lives", "shuffled 2")
+    assert scene.closing == "", "signed in one order, not in the other"
+    scene.page.wait_for_function("!location.hash.includes('signed')")
+    scene.button("Reset").click()
+    scene.page.wait_for_function("!location.hash.includes('filling')")
+    assert slider.input_value() == "3"
+    assert scene.problems == []
+
+
+def test_fewer_lives_shorten_the_time_line(show):
+    scene = show(Filling(results="goal-target_c"), "#filling.n=50").bet("16 to 30")
+
+    assert scene.slider("Lives").get_attribute("max") == "20"
+    sign(scene)
+    wanted = read_along(tracks(read_results("goal-target_c"), "1"))
+    assert f"all 20 say \u201c{wanted.verdict}\u201d" in scene.closing
+    assert scene.problems == []

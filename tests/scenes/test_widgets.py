@@ -1,0 +1,232 @@
+"""Scenes as widgets: what they print, what they show, what they accept."""
+
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import traitlets
+from bs4 import BeautifulSoup
+from support import ROOT
+
+from abstransfer import maps, scenes
+from abstransfer.learning import q_learning
+from abstransfer.scenes import Microscope
+from abstransfer.scenes import files as _scene_files
+from abstransfer.scenes.base import VIEW
+from abstransfer.scenes.microscope.widget import STARTS, STEPS, own_trace
+from abstransfer.scenes.parts.stills import building_svg
+
+SCENES = [
+    getattr(scenes, name)
+    for name in scenes.__all__
+    if getattr(getattr(scenes, name), "scene", "")
+]
+
+
+def parsed(scene):
+    return BeautifulSoup(scene.html(), "html.parser")
+
+
+# Every scene
+
+
+@pytest.mark.parametrize("kind", SCENES)
+def test_a_scene_shows_itself_with_defaults_only(kind):
+    data = kind()._repr_mimebundle_()
+
+    assert data["text/plain"] == f"{kind.__name__}()"
+    assert set(data) == {"text/plain", "text/html", VIEW}
+    assert data["text/html"] == kind().html(), "the same bytes every time"
+    assert len(data["text/html"]) < 40_000
+
+
+@pytest.mark.parametrize("kind", SCENES)
+def test_a_scene_says_without_script_what_it_finds(kind):
+    soup = parsed(kind())
+    (root,) = soup.find_all(class_="abstransfer-scene")
+    pictures = root.find_all("svg")
+
+    assert root["data-scene"] == kind.scene
+    assert set(json.loads(root["data-options"])) <= set(kind.defaults())
+    assert len(pictures) == 3
+    assert all(len(svg["aria-label"]) >= 20 for svg in pictures)
+    assert any(char.isdigit() for char in root.find("figcaption").get_text())
+    assert len(root.find_all("tr")) >= 2
+    assert not root.find_all(id=True), "ids of two scenes on a page would clash"
+
+
+@pytest.mark.parametrize("kind", SCENES)
+def test_a_scene_refuses_what_it_does_not_have(kind):
+    with pytest.raises(ValueError, match="speed must be one of .*, which a"):
+        kind(speed=3)
+
+
+@pytest.mark.parametrize("kind", SCENES)
+def test_a_widget_brings_all_it_needs(kind):
+    state = kind().get_state()
+
+    assert state["_esm"] == _scene_files.module(kind.scene)
+    assert not re.search(r"^\s*import\b", state["_esm"], re.MULTILINE)
+    hosts = set(re.findall(r"https?://[^/\s\"']*", state["_esm"]))
+    assert hosts == {"http://www.w3.org"}, "a name of SVG, and nothing is loaded"
+    assert set(kind.defaults()) <= set(state)
+
+
+# The front end
+
+
+def test_the_script_is_valid(tmp_path):
+    for name, text in (
+        ("page.js", _scene_files.page_script()),
+        ("widget.mjs", _scene_files.module("microscope")),
+    ):
+        (tmp_path / name).write_text(text)
+        subprocess.run(["node", "--check", tmp_path / name], check=True)
+
+
+def test_files_of_the_front_end_are_short():
+    for path in _scene_files.FOLDER.glob("**/*.js"):
+        assert len(path.read_text().split("\n")) <= 300, path.name
+
+
+def test_every_colour_that_is_used_is_defined():
+    used = set()
+    for path in _scene_files.FOLDER.glob("**/*.*s*"):
+        used |= {
+            part.split(")")[0].split(",")[0]
+            for part in path.read_text().split("var(")[1:]
+        }
+    style = _scene_files.style()
+    own = {'--ab-arm-${builder in at.palette.arms ? builder : "none"}'}
+
+    missing = {
+        name for name in used - own if f"{name}:" not in style and "$" not in name
+    }
+    set_by_scripts = {
+        "--ab-columns",
+        "--ab-rows",
+        "--ab-min",
+        "--ab-part",
+        "--ab-hue",
+        "--ab-bar",
+    }
+    assert missing <= set_by_scripts
+
+
+# Stills
+
+
+def test_a_still_marks_goals_doors_and_the_robot():
+    map_ = maps.parse_map("+---+-+\n|. .d*|\n+---+-+")
+    svg = building_svg(map_, "A corridor and a room.", values=[0, 0.5, np.nan], robot=0)
+    soup = BeautifulSoup(svg, "html.parser")
+
+    assert soup.svg["aria-label"] == "A corridor and a room."
+    assert len(soup.find_all("circle")) == 1
+    assert svg.count("translate(50 10)") == 1
+    assert "fill-opacity:0.5" in svg
+    assert svg.count("M40 3.6v12.8") == 2  # one door: its rim and its inside
+
+
+# Traits
+
+
+def test_a_map_may_be_named_drawn_or_given():
+    source = maps.read_map("source")
+
+    assert Microscope(map="source").map == source
+    assert Microscope(map=str(source)).map == source
+    scene = Microscope(map=source)
+    assert scene.get_state()["map"] == str(source)
+    assert "Map(9 x 15 cells" in repr(scene)
+    scene.set_state({"map": "+---+\n|  *|\n+---+"})  # as the browser does
+    assert scene.map == maps.parse_map("+---+\n|  *|\n+---+")
+    with pytest.raises(ValueError, match="no goal"):
+        scene.map = "+---+\n|   |\n+---+"
+
+
+def test_an_array_is_a_list_in_the_browser():
+    class Holder(traitlets.HasTraits):
+        policy = scenes.ArrayTrait()
+
+    holder = Holder()
+    heard = []
+    holder.observe(lambda change: heard.append(change["new"].tolist()), "policy")
+    holder.policy = [[0, 1]]
+    holder.policy = np.array([[0, 1]])  # the same: nobody is told
+    holder.policy = [[1, 0]]
+
+    assert heard == [[[0.0, 1.0]], [[1.0, 0.0]]]
+    to_json = Holder.policy.metadata["to_json"]
+    assert to_json(holder.policy) == [[1.0, 0.0]]
+
+
+def test_state_that_differs_goes_to_the_page():
+    scene = Microscope(start="cost", t=20)
+
+    assert repr(scene) == "Microscope(start='cost', t=20)"
+    assert scene.changed == {"start": "cost", "t": 20}
+    assert json.loads(parsed(scene).div["data-options"]) == scene.changed
+    scene.t = 111
+    assert scene.changed == {"start": "cost"}
+
+
+@pytest.mark.parametrize("wrong", [{"t": 301}, {"start": "x"}, {"luck": 0}])
+def test_a_wrong_value_is_refused(wrong):
+    with pytest.raises(traitlets.TraitError):
+        Microscope(**wrong)
+
+
+# The microscope with a rule of the reader's own
+
+
+def eq_1(q, s, a, r, s_next, alpha, gamma):
+    return (1 - alpha) * q[s, a] + alpha * (r + gamma * q[s_next].max())
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_the_right_rule_gives_the_run_of_q_learning(start):
+    scene = Microscope(start=start, update=eq_1)
+    q0 = STARTS[start][1]
+    trace = q_learning(scene.tasks.mdp, STEPS, rng=4, q0=q0, trace=STEPS).trace
+
+    found = np.array(scene.trace)
+    np.testing.assert_array_equal(found[:, :7], np.column_stack(trace))
+    assert found[:, 6].any(), "nothing was learned: nothing compared"
+
+
+def test_a_wrong_rule_leads_elsewhere_and_follows_the_scene():
+    scene = Microscope(update=lambda q, s, a, r, s_next, alpha, gamma: r)
+    before = scene.trace
+    scene.luck = 9
+
+    assert scene.trace != before
+    assert repr(scene) == "Microscope(luck=9, trace=...)"
+
+
+def test_a_rule_may_not_write_into_the_values_or_return_nonsense():
+    tasks = Microscope().tasks
+
+    def spoiler(q, *others):
+        q[:] = 5
+        return 0.0
+
+    assert max(row[6] for row in own_trace(tasks, 0.0, 4, spoiler)) == 0
+    with pytest.raises(ValueError, match="update must return a finite number, got inf"):
+        own_trace(tasks, 0.0, 4, lambda *_: np.inf)
+
+
+def test_widgets_are_not_loaded_with_the_package():
+    program = "import abstransfer, sys; assert 'anywidget' not in sys.modules"
+    subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_every_scene_is_in_the_reference():
+    reference = (ROOT / "book" / "api.md").read_text(encoding="utf-8")
+    section = reference.split("automodule:: abstransfer.scenes")[1].split("```")[0]
+    listed = [line.split(":: ")[1] for line in section.split("\n") if ":: " in line]
+
+    assert sorted(listed[1:]) == sorted(scenes.__all__)  # the first: currentmodule
