@@ -9,7 +9,7 @@ import sys
 from .._paths import DATA
 from ..experiments.arms import SCALES
 from ..experiments.plan import SEED
-from .learn import MAP_HELP, add_reading, count, option, progress_bar, reading_of
+from .learn import MAP_HELP, add_problem, count, option, problem_of, progress_bar
 
 
 def add_experiment(commands) -> None:
@@ -28,7 +28,7 @@ def add_experiment(commands) -> None:
     option(parser, "--jobs", None, "N", "processes (one per processor)", count)
     option(parser, "--runs", None, "N", "runs per arm (50; 10 in a grid)", count)
     option(parser, "--target", "target", "MAP", "building to learn in: " + MAP_HELP)
-    add_reading(parser)
+    add_problem(parser)
     option(parser, "--seed", SEED, "K", "seed of the experiment", count)
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
@@ -75,7 +75,7 @@ def _run_experiment(arguments) -> int:
             reproduce(
                 arguments.out,
                 scale=arguments.scale,
-                reading=reading_of(arguments, arguments.target),
+                problem=problem_of(arguments, arguments.target),
                 n_runs=arguments.runs,
                 seed=arguments.seed,
                 n_workers=arguments.jobs,
@@ -87,7 +87,7 @@ def _run_experiment(arguments) -> int:
             runs = arguments.runs if arguments.runs is not None else 10 if grid else 50
             run_experiment(
                 arms_of(what, ""),
-                reading_of(arguments, arguments.target),
+                problem_of(arguments, arguments.target),
                 scale=arguments.scale,
                 n_runs=runs,
                 seed=arguments.seed,

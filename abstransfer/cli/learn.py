@@ -1,5 +1,5 @@
 """
-The command ``learn``: one run; and the options that make a reading.
+The command ``learn``: one run; and the options that make a problem.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import json
 import numpy as np
 
 from ..experiments.arms import ARMS, PAPER_STEPS, STRATEGIES, Scale
-from ..experiments.problem import GUIDES, Reading, build_guides
+from ..experiments.problem import GUIDES, Problem, build_guides
 from ..experiments.workers import Job, run_job
 from ..maps import read_map
 
@@ -25,7 +25,7 @@ def add_learn(commands) -> None:
     )
     parser.set_defaults(run=_run_learn)
     option(parser, "--map", "target", "MAP", "building to learn in: " + MAP_HELP)
-    add_reading(parser)
+    add_problem(parser)
     parser.add_argument("--guide", default="none", choices=("none", *GUIDES))
     parser.add_argument("--strategy", default="hard", choices=STRATEGIES)
     tau_help = "steps of advice (the paper's tau, shrunk or stretched like --steps)"
@@ -58,7 +58,7 @@ def _run_learn(arguments) -> int:
 
 def _job(arguments) -> Job:
     """Return the run that the arguments ask for, checked and with its guide."""
-    steps, reading = arguments.steps, reading_of(arguments, arguments.map)
+    steps, problem = arguments.steps, problem_of(arguments, arguments.map)
     window = arguments.window if arguments.window is not None else -(-steps // 60)
     for name, value in (("steps", steps), ("window", window)):
         if value < 1:
@@ -68,11 +68,11 @@ def _job(arguments) -> Job:
         name = f"{arguments.guide}-{arguments.strategy}"
         paper = next(arm for arm in ARMS if arm.name == name)
         tau = scale.tau(paper) if tau is None else tau
-        guide = build_guides(reading, [arguments.guide])[arguments.guide]
+        guide = build_guides(problem, [arguments.guide])[arguments.guide]
     elif tau:
         raise ValueError("--tau needs a --guide to follow for that long")
     seeds = (np.random.SeedSequence(arguments.seed),)
-    return Job(reading, arguments.strategy, tau or 0, guide, scale, seeds)
+    return Job(problem, arguments.strategy, tau or 0, guide, scale, seeds)
 
 
 def progress_bar(name: str, total: int, done: int = 0):
@@ -83,8 +83,8 @@ def progress_bar(name: str, total: int, done: int = 0):
     return tqdm(total=total, initial=done, desc=name, **options)
 
 
-def add_reading(parser) -> None:
-    """Add the options that make a reading, target excepted."""
+def add_problem(parser) -> None:
+    """Add the options that make a problem, target excepted."""
     option(parser, "--source", "source", "MAP", "building of the policies: " + MAP_HELP)
     parser.add_argument(
         "--reward",
@@ -129,8 +129,8 @@ def count(text: str) -> int:
     return int(number)
 
 
-def reading_of(arguments, target: str) -> Reading:
-    return Reading(
+def problem_of(arguments, target: str) -> Problem:
+    return Problem(
         source=read_map(arguments.source),
         target=read_map(target),
         reward=arguments.reward,

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .arms import SCALES, Arm, Scale, check_arms
-from .problem import GUIDES, Reading, build_guides, digest
+from .problem import GUIDES, Problem, build_guides, digest
 from .workers import Job
 
 SEED = 2015  # the year of the paper
@@ -23,7 +23,7 @@ class Plan(NamedTuple):
     """An experiment, checked, before its first step."""
 
     arms: tuple[Arm, ...]
-    reading: Reading
+    problem: Problem
     scale: Scale
     n_runs: int
     seed: int
@@ -43,7 +43,7 @@ class Plan(NamedTuple):
 
 def make_plan(
     arms: Iterable[Arm],
-    reading: Reading | None,
+    problem: Problem | None,
     scale: str | Scale,
     n_runs: int,
     *,
@@ -65,7 +65,7 @@ def make_plan(
         raise ValueError(f"seed must be at least 0, got {seed}")
     if stream not in STREAMS:
         raise ValueError(f"stream must be one of {tuple(STREAMS)}, got {stream!r}")
-    arms, reading, guides = check_arms(arms), reading or Reading(), dict(guides or {})
+    arms, problem, guides = check_arms(arms), problem or Problem(), dict(guides or {})
     wanted = {arm.guide: arm for arm in arms if arm.guide}
     for name, arm in wanted.items():
         if name not in (*GUIDES, *guides):
@@ -73,15 +73,15 @@ def make_plan(
             raise ValueError(
                 f"guide of arm {arm.name!r} must be one of {known}, got {name!r}"
             )
-    built = build_guides(reading, [name for name in wanted if name not in guides])
+    built = build_guides(problem, [name for name in wanted if name not in guides])
     guides = {name: (guides | built)[name] for name in wanted}
-    return Plan(arms, reading, scale, n_runs, seed, stream, guides)
+    return Plan(arms, problem, scale, n_runs, seed, stream, guides)
 
 
 def parameters(plan: Plan) -> dict:
     """Return all that the goals depend on, for JSON."""
     return {
-        "reading": plan.reading.record(),
+        "reading": plan.problem.record(),
         "steps": plan.scale.steps,
         "window": plan.scale.window,
         "arms": [
@@ -110,7 +110,7 @@ def make_jobs(plan: Plan, done: np.ndarray) -> Iterator[tuple[tuple[int, int], J
                 yield (
                     (a, runs[0]),
                     Job(
-                        plan.reading,
+                        plan.problem,
                         arm.strategy,
                         plan.scale.tau(arm),
                         plan.guides.get(arm.guide),

@@ -1,7 +1,7 @@
 """
-The reading of the paper: what it says of the problem, and what it leaves open.
+The learning problem: what the paper says of it, and what it leaves open.
 
-Here a reading becomes tasks, and the advice that is carried to them.
+Here a problem becomes tasks, and the advice that is carried to them.
 Page 3 of the book teaches what the choices do.
 """
 
@@ -26,7 +26,7 @@ GUIDES = ("rand", *BUILDERS)
 
 
 @dataclass(frozen=True)
-class Reading:
+class Problem:
     """
     The learning problem: what the paper says, and what it leaves open.
 
@@ -49,7 +49,7 @@ class Reading:
 
     Examples
     --------
-    >>> Reading(epsilon=1.5)
+    >>> Problem(epsilon=1.5)
     Traceback (most recent call last):
         ...
     ValueError: epsilon must lie in 0..1, got 1.5
@@ -87,36 +87,36 @@ class Reading:
                 raise ValueError(f"{name} must {rule}, got {getattr(self, name)}")
 
     def record(self) -> dict:
-        """Return everything that makes this reading, for JSON."""
+        """Return everything that makes this problem, for JSON."""
         numbers = {f.name: getattr(self, f.name) for f in fields(self)[2:]}
         maps = {"source": self.source, "target": self.target}
         return {name: _map_record(map_) for name, map_ in maps.items()} | numbers
 
 
 @lru_cache(maxsize=8)
-def target_tasks(reading: Reading) -> NavigationTasks:
-    """Return the tasks to be learned; made once per reading and process."""
+def target_tasks(problem: Problem) -> NavigationTasks:
+    """Return the tasks to be learned; made once per problem and process."""
     return navigation_tasks(
-        reading.target,
-        success=reading.success,
-        reward=reading.reward,
-        unavailable=reading.unavailable,
+        problem.target,
+        success=problem.success,
+        reward=problem.reward,
+        unavailable=problem.unavailable,
     )
 
 
-def build_guides(reading: Reading, names: Iterable[str]) -> dict[str, np.ndarray]:
+def build_guides(problem: Problem, names: Iterable[str]) -> dict[str, np.ndarray]:
     """
     Return the abstract policies (Z, A) of these names, built in the source.
 
     They are built, and driven, with discount 0.99 and a cost of 1 a step,
     whatever reward the learner gets.
 
-    >>> build_guides(Reading(), ["rand"])["rand"][0]
+    >>> build_guides(Problem(), ["rand"])["rand"][0]
     array([0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125])
     """
     names = list(names)
     source = navigation_tasks(
-        reading.source, success=reading.success, unavailable=reading.unavailable
+        problem.source, success=problem.success, unavailable=problem.unavailable
     )
     guides = abstract_policies(source, [name for name in names if name != "rand"])
     if "rand" in names:
@@ -124,10 +124,10 @@ def build_guides(reading: Reading, names: Iterable[str]) -> dict[str, np.ndarray
     return guides
 
 
-def executed_values(reading: Reading, guides: dict[str, np.ndarray]) -> dict:
+def executed_values(problem: Problem, guides: dict[str, np.ndarray]) -> dict:
     """Return the value of driving by each guide in the target, as in Table 1."""
     tasks = navigation_tasks(
-        reading.target, success=reading.success, unavailable=reading.unavailable
+        problem.target, success=problem.success, unavailable=problem.unavailable
     )
     allowed = tasks.mdp.allowed
     policies = {

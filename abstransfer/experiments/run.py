@@ -1,7 +1,7 @@
 """
 Experiments: many runs of many arms, on as many workers as there are.
 
-A run depends on its seed, its arm and the reading; not on the number of
+A run depends on its seed, its arm and the problem; not on the number of
 workers, their kind, or the order in which they finish.  Run i of every arm
 has the same seed (common random numbers), and the seeds that tune tau are
 none of those that report.  Page 9 of the book teaches this module.
@@ -20,7 +20,7 @@ import numpy as np
 
 from .arms import ARMS, Arm, Scale
 from .plan import SEED, Plan, differences, make_jobs, make_plan, parameters
-from .problem import Reading, executed_values
+from .problem import Problem, executed_values
 from .results import (
     TABLE,
     Results,
@@ -37,7 +37,7 @@ from .workers import run_jobs
 
 def run_experiment(
     arms: Iterable[Arm] = ARMS,
-    reading: Reading | None = None,
+    problem: Problem | None = None,
     *,
     scale: str | Scale = "paper",
     n_runs: int = 50,
@@ -55,7 +55,7 @@ def run_experiment(
     Parameters
     ----------
     arms : iterable of Arm
-    reading : Reading, optional
+    problem : Problem, optional
         By default the paper's maps, with reward ``"goal"``.
     scale : {"page", "class", "paper"} or Scale
         Steps of a run and of a window; tau shrinks along.  The problem does not:
@@ -91,7 +91,7 @@ def run_experiment(
         If a worker died.
     """
     plan = make_plan(
-        arms, reading, scale, n_runs, seed=seed, stream=stream, guides=guides
+        arms, problem, scale, n_runs, seed=seed, stream=stream, guides=guides
     )
     if n_workers is not None and n_workers < 1:
         raise ValueError(f"n_workers must be at least 1, got {n_workers}")
@@ -145,7 +145,7 @@ def _record(plan: Plan, seconds: float, wall: float | None) -> dict:
     packages = ("abstransfer", "numpy", "scipy", "numba")
     return {
         "parameters": parameters(plan),
-        "executed": executed_values(plan.reading, plan.guides),
+        "executed": executed_values(plan.problem, plan.guides),
         "seconds": {
             "cores": round(seconds, 2),
             "wall": wall and round(wall, 2),  # None if it was interrupted

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..policies import restrict_policy
 from .arms import Scale
-from .problem import Reading, target_tasks
+from .problem import Problem, target_tasks
 
 STOP = threading.Event()  # set in a worker process whose parent wants no more
 
@@ -28,7 +28,7 @@ STOP = threading.Event()  # set in a worker process whose parent wants no more
 class Job(NamedTuple):
     """Some runs of one arm: all that a worker needs to know."""
 
-    reading: Reading
+    problem: Problem
     strategy: str
     tau: int  # steps of advice, at this scale
     guide: np.ndarray | None  # (Z, A)
@@ -53,7 +53,7 @@ def run_job(
             on_progress(n_steps)
 
     go_on(0)
-    tasks, reading = target_tasks(job.reading), job.reading
+    tasks, problem = target_tasks(job.problem), job.problem
     guide = None
     if job.guide is not None:
         guide = restrict_policy(job.guide[tasks.rho], tasks.mdp.allowed)
@@ -66,11 +66,11 @@ def run_job(
         guide=guide,
         strategy=job.strategy,
         tau=job.tau,
-        alpha=reading.alpha,
-        epsilon=reading.epsilon,
-        gamma=reading.gamma,
-        q0=reading.q0,
-        max_episode=reading.max_episode,
+        alpha=problem.alpha,
+        epsilon=problem.epsilon,
+        gamma=problem.gamma,
+        q0=problem.q0,
+        max_episode=problem.max_episode,
         window=job.scale.window,
     )
     return np.array([run.goals for run in runs]), time.thread_time() - began

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ..experiments.arms import ARMS, Arm, tau_cells
 from ..experiments.plan import SEED
-from ..experiments.problem import Reading
+from ..experiments.problem import Problem
 from ..experiments.results import Results, load_results
 from ..experiments.run import run_experiment
 from ..experiments.tuning import tune, tuned_arms
@@ -70,7 +70,7 @@ def reproduce(
     out: str | Path,
     *,
     scale: str = "paper",
-    reading: Reading | None = None,
+    problem: Problem | None = None,
     n_runs: int | None = None,
     seed: int = SEED,
     n_workers: int | None = None,
@@ -84,7 +84,7 @@ def reproduce(
     ----------
     out, scale, seed, n_workers
         As for :func:`~abstransfer.experiments.run.run_experiment`.
-    reading : Reading, optional
+    problem : Problem, optional
         What is not the paper's; reward and target are those of the experiment.
     n_runs : int, optional
         In place of the number of runs of each experiment.
@@ -100,7 +100,7 @@ def reproduce(
         found[experiment.folder] = run_experiment(
             arms_of(experiment, out),
             replace(
-                reading or Reading(),
+                problem or Problem(),
                 reward=experiment.reward,
                 target=read_map(experiment.target),
             ),

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..experiments.arms import STRATEGIES, Arm, Scale
 from ..experiments.plan import SEED
-from ..experiments.problem import Reading, build_guides
+from ..experiments.problem import Problem, build_guides
 from ..experiments.results import Results
 from ..experiments.run import run_experiment
 from ..maps import read_map
@@ -65,7 +65,7 @@ class Study(NamedTuple):
     folder: str
     guides: tuple[str, ...]  # names in ADVICE
     target: str = "target"
-    reading: Mapping = {}  # what is not the reading of the book
+    problem: Mapping = {}  # what is not the reading of the book
     strategies: tuple[str, ...] = STRATEGIES
     taus: tuple[int, ...] = ()  # in place of TAU
     n_runs: int = 20
@@ -86,9 +86,9 @@ BROAD = ("nd-available-0.5", "available")
 SOME = SHORT + BROAD
 STUDIES = (
     Study("study-goal-target", tuple(ADVICE)),
-    Study("study-rescue-target", SOME, reading={"max_episode": 500}),
-    Study("study-masked-target", SOME, reading={"unavailable": "masked"}),
-    Study("study-cost-target", SOME, reading={"reward": "cost"}),
+    Study("study-rescue-target", SOME, problem={"max_episode": 500}),
+    Study("study-masked-target", SOME, problem={"unavailable": "masked"}),
+    Study("study-cost-target", SOME, problem={"reward": "cost"}),
     *(
         Study(f"study-goal-target_{x}", SOME, f"target_{x}", strategies=("hard",))
         for x in "bcd"
@@ -104,7 +104,7 @@ STUDIES = (
 
 
 def make_guides(
-    names: Iterable[str] = tuple(ADVICE), reading: Reading | None = None
+    names: Iterable[str] = tuple(ADVICE), problem: Problem | None = None
 ) -> dict[str, np.ndarray]:
     """
     Return the abstract policies (Z, A) of these names in `ADVICE`.
@@ -115,10 +115,10 @@ def make_guides(
     >>> bool(((guides["beta-0"] > 0) == (guides["beta-1"] > 0)).all())
     True
     """
-    reading = reading or Reading()
+    problem = problem or Problem()
     wanted = {name: ADVICE[name] for name in names}
-    built = build_guides(reading, {advice.base for advice in wanted.values()})
-    source = navigation_tasks(reading.source)
+    built = build_guides(problem, {advice.base for advice in wanted.values()})
+    source = navigation_tasks(problem.source)
     uniform = {
         "available": uniform_policy(source.possible),
         "all": uniform_policy(np.ones_like(source.possible)),
@@ -148,14 +148,14 @@ def run_studies(
     """
     found = {}
     for study in studies:
-        reading = Reading(target=read_map(study.target), **study.reading)
+        problem = Problem(target=read_map(study.target), **study.problem)
         found[study.folder] = run_experiment(
             study.arms,
-            reading,
+            problem,
             scale=scale,
             n_runs=study.n_runs if n_runs is None else n_runs,
             seed=seed,
-            guides=make_guides(study.guides, reading),
+            guides=make_guides(study.guides, problem),
             out=Path(out) / study.folder,
             on_progress=on_start(study),
             **options,

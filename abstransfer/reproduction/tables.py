@@ -35,8 +35,8 @@ MILLION = 1_000_000
 
 def experiment_name(results: Results) -> str:
     """Return reward and target of an experiment, as in "goal, target_b"."""
-    reading = results.record["parameters"]["reading"]
-    name = f"{reading['reward']}, {reading['target']['name']}"
+    problem = results.record["parameters"]["reading"]
+    name = f"{problem['reward']}, {problem['target']['name']}"
     if is_grid(results):
         return name + ", grid"
     paper = {arm.name: arm.tau for arm in ARMS}

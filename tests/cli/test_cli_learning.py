@@ -290,12 +290,12 @@ def test_a_worker_needs_less_than_500_mb():
     script = (
         "import numpy as np\n"
         "from abstransfer.experiments.arms import Scale\n"
-        "from abstransfer.experiments.problem import Reading, build_guides\n"
+        "from abstransfer.experiments.problem import Problem, build_guides\n"
         "from abstransfer.experiments.workers import Job, run_job\n"
-        "reading = Reading()\n"
-        "guide = build_guides(reading, ['nd'])['nd']\n"
+        "problem = Problem()\n"
+        "guide = build_guides(problem, ['nd'])['nd']\n"
         "seeds = tuple(np.random.SeedSequence(1).spawn(6))\n"
-        "run_job(Job(reading, 'hard', 5000, guide, Scale(10_000, 1_000), seeds))\n"
+        "run_job(Job(problem, 'hard', 5000, guide, Scale(10_000, 1_000), seeds))\n"
         "print(open('/proc/self/status').read())\n"
     )
     done = subprocess.run(

@@ -15,7 +15,7 @@ from abstransfer import read_map
 from abstransfer.experiments import workers
 from abstransfer.experiments.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
-from abstransfer.experiments.problem import Reading, build_guides, target_tasks
+from abstransfer.experiments.problem import Problem, build_guides, target_tasks
 from abstransfer.experiments.results import (
     Results,
     load_results,
@@ -27,17 +27,17 @@ from abstransfer.learning import q_learning
 from abstransfer.policies import restrict_policy
 
 SMALL = Scale(30_000, 10_000)
-READING = Reading(target=read_map("source"))
+PROBLEM = Problem(target=read_map("source"))
 THREE = (ARMS[0], ARMS[3], ARMS[6])  # none, nd-hard, prob-soft
 N_RUNS = 8  # more than a job holds
 
 
-def run(arms=THREE, reading=READING, **options):
+def run(arms=THREE, problem=PROBLEM, **options):
     options = {"scale": SMALL, "n_runs": N_RUNS} | options
     if "executor" in options or "n_workers" in options:
-        return run_experiment(arms, reading, **options)
+        return run_experiment(arms, problem, **options)
     with ThreadPoolExecutor(2) as executor:
-        return run_experiment(arms, reading, executor=executor, **options)
+        return run_experiment(arms, problem, executor=executor, **options)
 
 
 @pytest.fixture(scope="module")
@@ -72,8 +72,8 @@ class Backwards(Executor):
 
 def test_each_run_is_the_one_that_its_seed_and_arm_make(expected):
     """Run 7 of prob-soft, alone, through the learner's own front door."""
-    tasks = target_tasks(READING)
-    guide = build_guides(READING, ["prob"])["prob"][tasks.rho]
+    tasks = target_tasks(PROBLEM)
+    guide = build_guides(PROBLEM, ["prob"])["prob"][tasks.rho]
     alone = q_learning(
         tasks.mdp,
         SMALL.steps,
@@ -129,7 +129,7 @@ def test_seeds_that_tune_are_none_of_those_that_report(expected):
 
 
 def test_a_worker_that_is_told_to_stop_leaves_its_job(monkeypatch):
-    job = workers.Job(READING, "hard", 0, None, SMALL, (np.random.SeedSequence(1),))
+    job = workers.Job(PROBLEM, "hard", 0, None, SMALL, (np.random.SeedSequence(1),))
     monkeypatch.setattr(workers, "STOP", threading.Event())
     calls = []
 
@@ -144,7 +144,7 @@ def test_a_worker_that_is_told_to_stop_leaves_its_job(monkeypatch):
 
 
 def test_own_guides_can_be_passed():
-    policy = build_guides(READING, ["nd"])["nd"]
+    policy = build_guides(PROBLEM, ["nd"])["nd"]
     named = run(
         (Arm("mine", "my policy", "hard", 3_500_000),), guides={"my policy": policy}
     )
@@ -212,7 +212,7 @@ def test_a_finished_experiment_is_read_not_run(tmp_path, expected):
 
 def test_only_missing_runs_are_made(tmp_path, expected):
     """A part with impossible goals stays: its runs were not repeated."""
-    plan = make_plan(THREE, READING, SMALL, N_RUNS)
+    plan = make_plan(THREE, PROBLEM, SMALL, N_RUNS)
     folder = tmp_path / "a"
     folder.mkdir()
     (folder / "experiment.json").write_text(
@@ -234,9 +234,9 @@ def test_only_missing_runs_are_made(tmp_path, expected):
     [
         ({"n_runs": 9}, "parameters.runs is 8 there and 9 here"),
         ({"seed": 1}, "parameters.seed is 2015 there and 1 here"),
-        ({"reading": Reading(target=READING.target, reward="cost")}, "reading.reward"),
-        ({"reading": Reading(target=READING.target, alpha=0.2)}, "alpha is 0.1 there"),
-        ({"reading": Reading()}, "target.name is 'source' there and 'target' here"),
+        ({"problem": Problem(target=PROBLEM.target, reward="cost")}, "reading.reward"),
+        ({"problem": Problem(target=PROBLEM.target, alpha=0.2)}, "alpha is 0.1 there"),
+        ({"problem": Problem()}, "target.name is 'source' there and 'target' here"),
         ({"scale": Scale(30_000, 15_000)}, "parameters.window"),
         ({"arms": THREE[:2]}, "parameters.arms is a list of 3 there"),
         ({"arms": (*THREE[:2], THREE[2]._replace(tau=7))}, r"arms\[2\].tau is 6000000"),
@@ -245,7 +245,7 @@ def test_only_missing_runs_are_made(tmp_path, expected):
 def test_a_folder_of_another_experiment_is_refused_by_name(
     tmp_path, expected, options, difference
 ):
-    record = {"parameters": parameters(make_plan(THREE, READING, SMALL, N_RUNS))}
+    record = {"parameters": parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS))}
     save_results(tmp_path, expected._replace(record=record))
     with pytest.raises(ValueError, match=difference):
         run(out=tmp_path, executor=NoExecutor(), **options)
@@ -296,7 +296,7 @@ def test_bad_arguments_are_refused_before_a_step(tmp_path, options, complaint):
 )
 def test_a_bad_reading_is_refused_by_name(name, value):
     with pytest.raises(ValueError, match=f"{name} must .* got {value!r}"):
-        Reading(**{name: value})
+        Problem(**{name: value})
 
 
 def test_an_unfinished_folder_cannot_be_loaded(tmp_path):
@@ -308,7 +308,7 @@ def test_an_unfinished_folder_cannot_be_loaded(tmp_path):
 
 
 def test_a_table_that_does_not_fit_its_record_is_refused(tmp_path, expected):
-    record = {"parameters": parameters(make_plan(THREE, READING, SMALL, N_RUNS))}
+    record = {"parameters": parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS))}
     swapped = Results(THREE[::-1], expected.goals, record)
     save_results(tmp_path, swapped)
     with pytest.raises(ValueError, match="not the table"):
@@ -331,7 +331,7 @@ def test_a_smaller_scale_shrinks_steps_and_tau_alike(scale, share):
 def test_masked_actions_and_the_cost_reward_can_be_learned_with():
     goals = [
         run(
-            THREE, Reading(target=READING.target, unavailable="masked", reward=reward)
+            THREE, Problem(target=PROBLEM.target, unavailable="masked", reward=reward)
         ).goals
         for reward in ("goal", "cost")
     ]

@@ -8,7 +8,7 @@ import pytest
 
 from abstransfer.experiments.arms import ARMS, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
-from abstransfer.experiments.problem import Reading
+from abstransfer.experiments.problem import Problem
 from abstransfer.experiments.results import (
     Results,
     load_results,
@@ -31,7 +31,7 @@ SCALE = Scale(30_000_000, 1_000_000)
 EXECUTED = {"rand": -97.0, "nd": -81.0, "prob": -70.0, "grad": -71.0}
 
 
-def made_up(arms, n_runs, reading):
+def made_up(arms, n_runs, problem):
     """Results of arms whose goals jump at tau, by a level that is their own."""
     rng, steps = np.random.default_rng(0), np.arange(30) * 1_000_000
     goals = np.array(
@@ -40,7 +40,7 @@ def made_up(arms, n_runs, reading):
             for i, arm in enumerate(arms)
         ]
     )
-    plan = make_plan(arms, reading, SCALE, n_runs, guides=GUIDES)
+    plan = make_plan(arms, problem, SCALE, n_runs, guides=GUIDES)
     record = {"parameters": parameters(plan), "executed": EXECUTED}
     return Results(tuple(arms), goals, record)
 
@@ -52,7 +52,7 @@ GUIDES = dict.fromkeys(("rand", "nd", "prob", "grad"), np.full((2048, 8), 1 / 8)
 def results(tmp_path_factory):
     """A folder with two experiments, a grid, and one that has not finished."""
     folder = tmp_path_factory.mktemp("results")
-    goal = Reading()
+    goal = Problem()
     save_results(folder / "goal", made_up(ARMS, 8, goal))
     save_results(folder / "cost", made_up(ARMS, 8, replace(goal, reward="cost")))
     save_results(folder / "grid", made_up(tau_cells(), 4, goal))
@@ -97,7 +97,7 @@ def test_each_experiment_gets_its_figures_and_the_grid_its_own(made):
 
 def test_figure_3_as_numbers_is_what_the_runs_say(made, results):
     rows = {row["arm"]: row for row in read(made / "figure3-goal.csv")}
-    totals = made_up(ARMS, 8, Reading()).totals("nd-soft")
+    totals = made_up(ARMS, 8, Problem()).totals("nd-soft")
 
     assert list(rows) == [arm.name for arm in ARMS]
     assert float(rows["nd-soft"]["mean"]) == pytest.approx(totals.mean(), abs=0.1)

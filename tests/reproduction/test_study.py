@@ -9,7 +9,7 @@ from abstransfer import MDP, induce_nondeterministic, navigation_tasks, read_map
 from abstransfer.experiments.arms import Scale
 from abstransfer.experiments.diagnosis import arrival, can_arrive, notes_after
 from abstransfer.experiments.plan import make_plan, parameters
-from abstransfer.experiments.problem import Reading, build_guides, target_tasks
+from abstransfer.experiments.problem import Problem, build_guides, target_tasks
 from abstransfer.experiments.results import read_results
 from abstransfer.learning import q_learning, q_learning_runs
 from abstransfer.reproduction.figures import make_figures
@@ -32,7 +32,7 @@ def guides():
 
 @pytest.fixture(scope="module")
 def paper():
-    return build_guides(Reading(), ["rand", "nd", "prob", "grad"])
+    return build_guides(Problem(), ["rand", "nd", "prob", "grad"])
 
 
 # Guides
@@ -62,7 +62,7 @@ def test_the_dial_changes_how_often_and_never_which(guides):
 
 
 def test_only_a_guide_diluted_among_all_takes_steps_that_lead_nowhere(guides):
-    tasks = target_tasks(Reading())
+    tasks = target_tasks(Problem())
     there = ~tasks.mdp.terminal
 
     for name, (_, _, into, share) in ADVICE.items():
@@ -129,9 +129,9 @@ def test_a_study_runs_resumes_and_has_the_luck_of_the_other_experiments(tmp_path
 
 @pytest.mark.parametrize("study", STUDIES, ids=lambda study: study.folder)
 def test_the_stored_results_are_those_of_the_study(study):
-    reading = Reading(target=read_map(study.target), **study.reading)
-    guides = make_guides(study.guides, reading)
-    plan = make_plan(study.arms, reading, "paper", study.n_runs, guides=guides)
+    problem = Problem(target=read_map(study.target), **study.problem)
+    guides = make_guides(study.guides, problem)
+    plan = make_plan(study.arms, problem, "paper", study.n_runs, guides=guides)
 
     assert read_results(study.folder).record["parameters"] == parameters(plan)
 
@@ -185,7 +185,7 @@ def test_arrival_is_worked_out_by_hand(corridor):
 
 
 def test_arrival_agrees_with_walking(guides):
-    tasks = target_tasks(Reading())
+    tasks = target_tasks(Problem())
     guide = guides["beta-0"][tasks.rho]
     exact = arrival(tasks.mdp, guide).goals_per_step(~tasks.mdp.terminal)
     n = 10_000_000
@@ -205,7 +205,7 @@ def test_a_loop_of_chances_ends_and_a_closed_loop_does_not(corridor):
 
 
 def test_who_arrives_at_all_depends_on_the_support_alone(guides):
-    tasks = target_tasks(Reading())
+    tasks = target_tasks(Problem())
     nd, prob = (can_arrive(tasks.mdp, guides[f"beta-{b}"][tasks.rho]) for b in (0, 1))
 
     np.testing.assert_array_equal(nd, prob)

@@ -96,9 +96,9 @@ def show(open_scene):
 
 def python_run(scene, guide, strategy="hard", tau=0, policy=None, **options):
     """The run of a scene by Python's own learner; `guide` is a name or None."""
-    tasks, scale = target_tasks(scene.reading), scene.scale
+    tasks, scale = target_tasks(scene.problem), scene.scale
     if guide and policy is None:
-        policy = built(scene.reading, guide)
+        policy = built(scene.problem, guide)
     if policy is not None:
         tau = round(tau * scene.steps / 30e6)
         options |= {"guide": policy[tasks.rho], "strategy": strategy, "tau": tau}
@@ -108,6 +108,6 @@ def python_run(scene, guide, strategy="hard", tau=0, policy=None, **options):
 
 
 @cache
-def built(reading, guide):
+def built(problem, guide):
     """An abstract policy, built once."""
-    return build_guides(reading, [guide])[guide]
+    return build_guides(problem, [guide])[guide]

@@ -36,9 +36,9 @@ def text_of(tab):
     return tab.root.locator("textarea").input_value()
 
 
-def assert_rungs_are_pythons(tab, **reading):
+def assert_rungs_are_pythons(tab, **options):
     rows = solved(tab).rows()
-    table = Ladder(text=text_of(tab), **reading).table
+    table = Ladder(text=text_of(tab), **options).table
     for row in ROWS:
         source, _, target, _ = rows[NAMES[row]]
         assert abs(number(source) - table["source"][row]) < 1e-9, row
@@ -108,9 +108,9 @@ def test_another_reading_is_pythons_too(open_scene):
     tab.root.get_by_role("slider", name="probability").fill("0.5")
     tab.root.get_by_role("slider", name="The goal is near").fill("9")
     tab.settle()
-    reading = {"actions": "compass", "success": 0.5, "near": 9}
+    options = {"actions": "compass", "success": 0.5, "near": 9}
 
-    assert_rungs_are_pythons(tab, **reading)
+    assert_rungs_are_pythons(tab, **options)
     tab.pick("What an action says", "go to what you see")
     for value in ("0.6", "0.75", "0.55", "0.95", "1"):  # five in a row
         tab.root.get_by_role("slider", name="probability").fill(value)

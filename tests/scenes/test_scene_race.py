@@ -82,7 +82,7 @@ def test_a_wrong_policy_is_refused(policy, problem):
 
 
 def test_a_policy_comes_back_from_the_browser_as_it_went():
-    nd = build_guides(Race().reading, ["nd"])["nd"]
+    nd = build_guides(Race().problem, ["nd"])["nd"]
     scene = Race(policy=nd)
     trait = Race.class_traits()["policy"]
     sent = trait.metadata["to_json"](scene.policy, scene)
@@ -104,7 +104,7 @@ def test_robots_are_where_python_has_them(show, race, runs, t):
 
     for row, run in zip(rows, runs.values(), strict=True):
         trace = run.trace
-        goal = target_tasks(race.reading).mdp.terminal[trace.next_state]
+        goal = target_tasks(race.problem).mdp.terminal[trace.next_state]
         cell = trace.next_state[t - 1] if t else trace.state[0]
         action = ACTIONS[trace.action[t - 1]].replace("_", " ") if t else "\u2013"
         assert row[1] == place(cell % n_cells)
@@ -194,7 +194,7 @@ def test_thirty_million_steps_are_the_stored_ones(show):
 
 
 def test_an_own_policy_races_too(show):
-    tasks = target_tasks(Race().reading)
+    tasks = target_tasks(Race().problem)
     wise = tasks.possible * 1.0
     wise[:, :4] *= 9  # labels that head to the goal
     wise /= wise.sum(axis=1, keepdims=True)

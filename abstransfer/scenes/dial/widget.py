@@ -8,7 +8,7 @@ import numpy as np
 import traitlets
 
 from ...experiments.arms import PAPER_STEPS, STRATEGIES, Arm
-from ...experiments.problem import Reading, build_guides, executed_values
+from ...experiments.problem import Problem, build_guides, executed_values
 from ...plotting.style import number
 from ...policies import beta_policy
 from ..base import Still
@@ -65,9 +65,9 @@ class Dial(RunScene):
     points = traitlets.List().tag(sync=True)
 
     @property
-    def reading(self) -> Reading:
+    def problem(self) -> Problem:
         """The problem that is learned."""
-        return Reading(source=self.source, target=self.map, reward=self.reward)
+        return Problem(source=self.source, target=self.map, reward=self.reward)
 
     @property
     def policy(self) -> np.ndarray:
@@ -148,11 +148,11 @@ _MAPS = {"source": "source", "target": "map"}
 
 @lru_cache(maxsize=8)
 def _policy(source, beta: float) -> np.ndarray:
-    prob = build_guides(Reading(source=source), ["prob"])["prob"]
+    prob = build_guides(Problem(source=source), ["prob"])["prob"]
     return beta_policy(prob, beta)
 
 
 @lru_cache(maxsize=256)
 def _driving(source, target, beta: float) -> float:
     guides = {"policy": _policy(source, beta)}
-    return executed_values(Reading(source=source, target=target), guides)["policy"]
+    return executed_values(Problem(source=source, target=target), guides)["policy"]

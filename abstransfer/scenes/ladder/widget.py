@@ -63,10 +63,10 @@ class Ladder(DrawnScene):
 
     @property
     def table(self) -> dict:
-        """Table 1 of these buildings and this reading, as ``table1`` returns it."""
+        """Table 1 of these buildings and options, as ``table1`` returns it."""
         near = max(self.near, self.almost_near)
-        reading = (self.success, self.actions, self.near, near)
-        return _table(self.source, self.target, *reading)
+        options = (self.success, self.actions, self.near, near)
+        return _table(self.source, self.target, *options)
 
     def still(self) -> Still:
         """Return the source, its ladder, and both ladders."""
@@ -121,6 +121,6 @@ def _paper(paper: dict, side: str, row: str) -> str:
 
 @lru_cache(maxsize=8)
 def _table(source: Map, target: Map, success, actions, near, almost_near) -> dict:
-    reading = {"success": success, "actions": actions}
-    reading |= {"near": near, "almost_near": almost_near}
-    return table1(*(navigation_tasks(map_, **reading) for map_ in (source, target)))
+    options = {"success": success, "actions": actions}
+    options |= {"near": near, "almost_near": almost_near}
+    return table1(*(navigation_tasks(map_, **options) for map_ in (source, target)))

@@ -9,7 +9,7 @@ import traitlets
 
 from ...experiments.arms import PAPER_STEPS, SCALES, Arm, Scale
 from ...experiments.plan import SEED, STREAMS
-from ...experiments.problem import Reading, build_guides, target_tasks
+from ...experiments.problem import Problem, build_guides, target_tasks
 from ...experiments.results import read_results
 from ...learning import q_learning
 from ..base import ArrayTrait, MapTrait, Scene
@@ -41,9 +41,9 @@ class RunScene(Scene):
     steps = traitlets.Int(PAPER_STEPS, min=600_000, max=PAPER_STEPS).tag(sync=True)
 
     @property
-    def reading(self) -> Reading:
+    def problem(self) -> Problem:
         """The problem that is learned."""
-        return Reading(source=self.source, target=self.map)
+        return Problem(source=self.source, target=self.map)
 
     @property
     def seed(self) -> np.random.SeedSequence:
@@ -64,8 +64,8 @@ class RunScene(Scene):
         if arm.guide == "yours":
             policy = self.policy if own is None else own
         else:
-            policy = _built(self.reading, arm.guide)
-        return policy[target_tasks(self.reading).rho]
+            policy = _built(self.problem, arm.guide)
+        return policy[target_tasks(self.problem).rho]
 
     def learn(self, arm: Arm, own: np.ndarray | None = None) -> np.ndarray:
         """
@@ -73,13 +73,13 @@ class RunScene(Scene):
 
         `own` (Z, A) advises the arm "yours"; by default the policy of the scene.
         """
-        stored = _stored(self.reading) if self.scale == SCALES["paper"] else None
+        stored = _stored(self.problem) if self.scale == SCALES["paper"] else None
         if stored is not None and arm in stored.arms:
             return stored.curves(arm.name, arm.tau)[self.luck - 1]
         if arm.guide == "yours" and own is None:
             own = self.policy
         key = (
-            self.reading,
+            self.problem,
             arm,
             self.steps,
             self.luck,
@@ -88,7 +88,7 @@ class RunScene(Scene):
         if key not in _done:
             guide = self.advice(arm, own)
             _done[key] = q_learning(
-                target_tasks(self.reading).mdp,
+                target_tasks(self.problem).mdp,
                 self.scale.steps,
                 rng=self.seed,
                 guide=guide,
@@ -132,19 +132,19 @@ def scaled(arm: Arm, steps: int) -> int:
 
 
 @lru_cache(maxsize=16)
-def _built(reading: Reading, name: str) -> np.ndarray:
-    return build_guides(reading, [name])[name]
+def _built(problem: Problem, name: str) -> np.ndarray:
+    return build_guides(problem, [name])[name]
 
 
 @lru_cache(maxsize=2)
-def _stored(reading: Reading):
-    """Return the stored results of a reading, None if there are none."""
+def _stored(problem: Problem):
+    """Return the stored results of a problem, None if there are none."""
     try:
         results = read_results(STORED)
     except FileNotFoundError:
         return None
     made = results.record["parameters"]
-    wanted = reading.record(), SEED, "report", RUNS
+    wanted = problem.record(), SEED, "report", RUNS
     found = made["reading"], made["seed"], made["stream"], made["runs"]
     return results if found == wanted else None
 
@@ -152,7 +152,7 @@ def _stored(reading: Reading):
 @lru_cache(maxsize=1)
 def _uniform() -> np.ndarray:
     """Return the policy (Z, A) that draws from all that is seen, uniformly."""
-    possible = target_tasks(Reading()).possible
+    possible = target_tasks(Problem()).possible
     return possible / possible.sum(axis=1, keepdims=True)
 
 

@@ -73,7 +73,7 @@ class Race(RunScene):
 
     def first_steps(self, arm: Arm):
         """Return the trace of the first 1000 steps of an arm."""
-        tasks = target_tasks(self.reading)
+        tasks = target_tasks(self.problem)
         guide = self.advice(arm)
         tau = 0 if guide is None else scaled(arm, self.steps)
         return q_learning(
@@ -116,7 +116,7 @@ class Race(RunScene):
         traces = {arm.guide or "none": self.first_steps(arm) for arm in self.arms}
         n_cells = self.map.n_cells
         start = int(traces["none"].state[0])
-        goal = int(target_tasks(self.reading).goal[start // n_cells])
+        goal = int(target_tasks(self.problem).goal[start // n_cells])
         where = place(self.map, start % n_cells, "")
         begin = building_svg(
             self.map,
