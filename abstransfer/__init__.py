@@ -17,6 +17,7 @@ Q       ``q``                 (S, A), expected V of the state reached
 ======  ====================  =================================================
 """
 
+from .abstraction import FEATURES, LABELS, describe, unseen_share
 from .builders.deduced import (
     Climb,
     absprob_pi,
@@ -27,7 +28,7 @@ from .builders.deduced import (
 from .driving import abstract_policies, format_table1, table1
 from .maps import Map, parse_map, read_map, tile_map
 from .mdp import MDP
-from .navigation import FEATURES, LABELS, NavigationTasks, describe, navigation_tasks
+from .navigation import NavigationTasks, navigation_tasks
 from .policies import (
     beta_policy,
     break_ties,
@@ -36,7 +37,6 @@ from .policies import (
     induce_probabilistic,
     restrict_policy,
     uniform_policy,
-    unseen_share,
 )
 from .solvers import (
     action_values,

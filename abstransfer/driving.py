@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from .abstraction import unseen_share
 from .builders.deduced import absprob_pi
 from .navigation import NavigationTasks
 from .policies import (
@@ -18,7 +19,6 @@ from .policies import (
     induce_probabilistic,
     restrict_policy,
     uniform_policy,
-    unseen_share,
 )
 from .solvers import evaluate_policy, optimal_actions, optimal_values
 
@@ -69,7 +69,8 @@ def abstract_policies(
     Behind the only door lies the goal: both builders say "go to the room".
 
     >>> from abstransfer.maps import parse_map
-    >>> from abstransfer.navigation import describe, navigation_tasks
+    >>> from abstransfer.abstraction import describe
+    >>> from abstransfer.navigation import navigation_tasks
     >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"))
     >>> describe(tasks.rho[0])
     'see_room_head_to_goal ^ near_goal'

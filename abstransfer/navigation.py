@@ -1,28 +1,32 @@
 """
-Navigation tasks: what a robot in a building can do, and what it sees.
+Navigation tasks: what a robot in a building can do, as one MDP.
 
 This is the only module that knows what a wall is and what an MDP is.
-Page 1 of the book teaches the tasks, page 4 the features and rho.
+Page 1 of the book teaches this module.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
-from .maps import CORRIDOR, DIRECTIONS, Map
+from .abstraction import (
+    FEATURES,
+    LABELS,
+    NO_LABEL,
+    abstract_states,
+    check_features,
+    look,
+)
+from .maps import DIRECTIONS, Map
 from .mdp import MDP
 
-KINDS = ("see_empty_space", "see_door_far", "see_room", "see_corridor")
-ORIENTATIONS = ("head_to_goal", "opposite_to_goal")
-#: The names of the eight actions, which are what the robot may see and on which side.
-LABELS = tuple(f"{kind}_{side}" for side in ORIENTATIONS for kind in KINDS)
-ACTIONS = LABELS  # go to what I see
-#: The eleven yes-or-no facts; bit f of an abstract state is feature f.
-FEATURES = (*LABELS, "near_goal", "almost_near_goal", "in_room")
-NO_LABEL = -1
+REWARDS = ("cost", "goal")
+ACTIONS = ("relational", "compass")
+UNAVAILABLE = ("wait", "masked")
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,18 +124,25 @@ def navigation_tasks(
     (1485, 8)
     """
     maps = (maps,) if isinstance(maps, Map) else tuple(maps)
-    features = _check_options(success, reward, actions, unavailable, features)
-    if not 0 <= near <= almost_near:
-        raise ValueError(
-            f"0 <= near <= almost_near must hold, got {near}, {almost_near}"
-        )
+    check_options(
+        success=success, reward=reward, actions=actions, unavailable=unavailable
+    )
+    features = check_features(features)
     building, goal = _select_tasks(maps, keep)
 
     sizes = [maps[b].n_cells for b in building]
     task = np.repeat(np.arange(len(goal)), sizes)
     cell = np.concatenate([np.arange(size) for size in sizes])
-    seen = [_look(maps[b], g) for b, g in zip(building, goal, strict=True)]
+    seen = [look(maps[b], g) for b, g in zip(building, goal, strict=True)]
     neighbors, labels, distance, in_room = map(np.concatenate, zip(*seen, strict=True))
+    rho = abstract_states(
+        labels,
+        distance,
+        in_room,
+        near=near,
+        almost_near=almost_near,
+        features=features,
+    )
     first_state = np.arange(len(cell)) - cell
     neighbors = np.where(neighbors < 0, -1, neighbors + first_state[:, None])
     terminal = cell == goal[task]
@@ -147,47 +158,36 @@ def navigation_tasks(
         gamma=gamma,
         allowed=available if unavailable == "masked" else None,
     )
-    holds = {label: (labels == i).any(axis=1) for i, label in enumerate(LABELS)}
-    holds["near_goal"] = distance <= near
-    holds["almost_near_goal"] = (near < distance) & (distance <= almost_near)
-    holds["in_room"] = in_room
-    rho = np.zeros(len(cell), dtype=np.int64)
-    for bit, feature in enumerate(features):
-        rho |= holds[feature].astype(np.int64) << bit
     names = DIRECTIONS if actions == "compass" else LABELS
     return NavigationTasks(
         mdp, rho, available, labels, task, cell, maps, building, goal, names, features
     )
 
 
-def describe(z: int, features: Sequence[str] = FEATURES) -> str:
+def check_options(
+    *,
+    success: float = 0.9,
+    reward: str = "cost",
+    actions: str = "relational",
+    unavailable: str = "wait",
+) -> None:
     """
-    Return an abstract state in the paper's words: its true features.
+    Refuse an option of :func:`navigation_tasks` by name, before a task is made.
 
-    >>> describe(0b010_0010_0001, features=FEATURES)
-    'see_empty_space_head_to_goal ^ see_door_far_opposite_to_goal ^ almost_near_goal'
+    >>> check_options(success=1.5)
+    Traceback (most recent call last):
+        ...
+    ValueError: success must satisfy 0 < success <= 1, got 1.5
     """
-    if not 0 <= z < 1 << len(features):
-        raise ValueError(f"z must lie in 0..{(1 << len(features)) - 1}, got {z}")
-    true = [name for bit, name in enumerate(features) if z >> bit & 1]
-    return " ^ ".join(true) or "(no feature holds)"
-
-
-def _check_options(success, reward, actions, unavailable, features) -> tuple[str, ...]:
-    """Refuse a bad option by name; return the features in the order of FEATURES."""
-    if not 0 < success <= 1:
-        raise ValueError(f"success must satisfy 0 < success <= 1, got {success}")
+    if not isinstance(success, Real) or not 0 < success <= 1:
+        raise ValueError(f"success must satisfy 0 < success <= 1, got {success!r}")
     for name, value, known in (
-        ("reward", reward, ("cost", "goal")),
-        ("actions", actions, ("relational", "compass")),
-        ("unavailable", unavailable, ("wait", "masked")),
+        ("reward", reward, REWARDS),
+        ("actions", actions, ACTIONS),
+        ("unavailable", unavailable, UNAVAILABLE),
     ):
         if value not in known:
             raise ValueError(f"{name} must be one of {known}, got {value!r}")
-    for feature in features:
-        if feature not in FEATURES:
-            raise ValueError(f"features must be among {FEATURES}, got {feature!r}")
-    return tuple(name for name in FEATURES if name in features)
 
 
 def _select_tasks(maps, keep) -> tuple[np.ndarray, np.ndarray]:
@@ -207,27 +207,6 @@ def _select_tasks(maps, keep) -> tuple[np.ndarray, np.ndarray]:
     ):
         raise ValueError(f"keep must name tasks among 0..{len(goal) - 1}, got {keep}")
     return building[keep], goal[keep]
-
-
-def _look(map_: Map, goal: int):
-    """Return neighbors (C, 4), labels (C, 4), distance to goal (C,), in_room (C,)."""
-    neighbors, doors, width = map_.neighbors, map_.doors, map_.shape[1]
-    in_room = map_.cells != CORRIDOR
-    row, column = np.divmod(np.arange(map_.n_cells), width)
-    distance = abs(row - goal // width) + abs(column - goal % width)
-    far_door = doors.any(axis=1)
-    kind = np.select(
-        [doors & in_room[neighbors], doors, far_door[neighbors]],
-        [
-            KINDS.index("see_room"),
-            KINDS.index("see_corridor"),
-            KINDS.index("see_door_far"),
-        ],
-        KINDS.index("see_empty_space"),
-    )
-    away = distance[neighbors] > distance[:, None]
-    labels = np.where(neighbors < 0, NO_LABEL, kind + len(KINDS) * away)
-    return neighbors, labels, distance, in_room
 
 
 def _ways(labels: np.ndarray, actions: str) -> np.ndarray:

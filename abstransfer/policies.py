@@ -201,25 +201,6 @@ def beta_policy(abstract_policy: np.ndarray, beta: float) -> np.ndarray:
     return weight / weight.sum(axis=1, keepdims=True)
 
 
-def unseen_share(rho: np.ndarray, voted: np.ndarray) -> float:
-    """
-    Return the share of states whose abstract state got no vote in the source.
-
-    Parameters
-    ----------
-    rho : ndarray of int, shape (S,)
-        Abstract states of the target; pass those of non-terminal states.
-    voted : ndarray of int
-        Abstract states of the source states that vote.
-
-    Examples
-    --------
-    >>> unseen_share(np.array([0, 1, 1, 2]), np.array([0, 1]))
-    0.25
-    """
-    return float(np.mean(~np.isin(rho, voted)))
-
-
 def _normalized(votes: np.ndarray, fallback: np.ndarray) -> np.ndarray:
     if np.shape(fallback) != votes.shape:
         raise ValueError(

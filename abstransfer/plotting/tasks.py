@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..abstraction import describe
 from ..maps import CORRIDOR
-from ..navigation import NavigationTasks, describe
+from ..navigation import NavigationTasks
 from .buildings import plot_map
 from .cells import count, paint_cells, place, print_in
 from .style import COLOR

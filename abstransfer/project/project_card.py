@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..abstraction import FEATURES
 from ..driving import column
 from ..experiments.plan import SEED
 from ..maps import parse_map
-from ..navigation import FEATURES, navigation_tasks
+from ..navigation import navigation_tasks
 from .racing import Race
 from .setup import GUIDES, Setup, drives, run, scale
 

@@ -12,10 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..abstraction import FEATURES
 from ..driving import BUILDERS, abstract_policies, column
 from ..experiments.arms import PAPER_STEPS
 from ..maps import Map, read_map
-from ..navigation import FEATURES, NavigationTasks, navigation_tasks
+from ..navigation import NavigationTasks, navigation_tasks
 from ..policies import uniform_policy
 from ..solvers import evaluate_policy
 from .racing import Race, race

@@ -14,9 +14,9 @@ import pytest
 from support import ROOT
 
 import abstransfer as at
+from abstransfer.abstraction import FEATURES
 from abstransfer.builders.deduced import absprob_pi, abstract_gradient, natural_ascent
 from abstransfer.learning import q_learning
-from abstransfer.navigation import FEATURES
 from abstransfer.policies import beta_policy
 from abstransfer.solvers import value_iteration
 

@@ -9,8 +9,9 @@ from scene_tab import bare, number
 from traitlets import TraitError
 
 from abstransfer import maps
+from abstransfer.abstraction import LABELS
 from abstransfer.driving import PAPER
-from abstransfer.navigation import LABELS, navigation_tasks
+from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Ballot
 from abstransfer.scenes.ballot.widget import PAGES, WINNER
 from abstransfer.scenes.dial.widget import BETAS

@@ -9,7 +9,8 @@ from scene_tab import bare, number
 from traitlets import TraitError
 
 from abstransfer import maps
-from abstransfer.navigation import FEATURES, navigation_tasks
+from abstransfer.abstraction import FEATURES
+from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Paint
 from abstransfer.scenes.parts.counts import count_states
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scene_tab import bare, number
 
+from abstransfer.abstraction import FEATURES
 from abstransfer.experiments.stats import paired_difference
 from abstransfer.maps import parse_map, read_map
-from abstransfer.navigation import FEATURES
 from abstransfer.project.project_card import card_text, read_setup, verify
 from abstransfer.project.setup import GUIDES, Setup, drives, run, scale
 from abstransfer.scenes import Project

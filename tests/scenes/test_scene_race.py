@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from run_scenes import SHORT, python_run
 
+from abstransfer.abstraction import LABELS
 from abstransfer.experiments.arms import ARMS
 from abstransfer.experiments.problem import build_guides, target_tasks
-from abstransfer.navigation import ACTIONS
 from abstransfer.scenes import Race
 
 NAMES = {"none": "no advice", "rand": "random", "prob": "Prob", "nd": "ND"}
@@ -106,7 +106,7 @@ def test_robots_are_where_python_has_them(show, race, runs, t):
         trace = run.trace
         goal = target_tasks(race.problem).mdp.terminal[trace.next_state]
         cell = trace.next_state[t - 1] if t else trace.state[0]
-        action = ACTIONS[trace.action[t - 1]].replace("_", " ") if t else "\u2013"
+        action = LABELS[trace.action[t - 1]].replace("_", " ") if t else "\u2013"
         assert row[1] == place(cell % n_cells)
         assert row[2:4] == [action, str(goal[:t].sum())]
     assert scene.problems == []

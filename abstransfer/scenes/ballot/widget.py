@@ -7,9 +7,10 @@ from functools import lru_cache
 import numpy as np
 import traitlets
 
+from ...abstraction import LABELS
 from ...driving import PAPER
 from ...maps import Map
-from ...navigation import LABELS, navigation_tasks
+from ...navigation import navigation_tasks
 from ...plotting.cells import count
 from ...plotting.style import number
 from ...policies import break_ties, count_votes

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import traitlets
 
-from ...navigation import FEATURES, LABELS, NavigationTasks, navigation_tasks
+from ...abstraction import FEATURES, LABELS
+from ...navigation import NavigationTasks, navigation_tasks
 from ...plotting.cells import count
 from ...plotting.task_cells import abstract_ranks
 from ..base import MapTrait, Scene, Still

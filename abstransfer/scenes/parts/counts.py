@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...abstraction import FEATURES, unseen_share
 from ...maps import Map
-from ...navigation import FEATURES, navigation_tasks
-from ...policies import count_votes, unseen_share
+from ...navigation import navigation_tasks
+from ...policies import count_votes
 from ...solvers import optimal_actions, optimal_values
 
 

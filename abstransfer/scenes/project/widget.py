@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import traitlets
 
+from ...abstraction import FEATURES
 from ...driving import BUILDERS
-from ...navigation import FEATURES
 from ...plotting.cells import count
 from ...plotting.style import number
 from ...project.project_card import card_text
