@@ -18,6 +18,12 @@ Q       ``q``                 (S, A), expected V of the state reached
 """
 
 from .abstraction import FEATURES, LABELS, describe, unseen_share
+from .builders import (
+    abstract_policies,
+    count_votes,
+    induce_nondeterministic,
+    induce_probabilistic,
+)
 from .builders.deduced import (
     Climb,
     absprob_pi,
@@ -25,19 +31,11 @@ from .builders.deduced import (
     natural_ascent,
     random_starts,
 )
-from .driving import abstract_policies, format_table1, table1
+from .driving import format_table1, table1
 from .maps import Map, parse_map, read_map, tile_map
 from .mdp import MDP
 from .navigation import NavigationTasks, navigation_tasks
-from .policies import (
-    beta_policy,
-    break_ties,
-    count_votes,
-    induce_nondeterministic,
-    induce_probabilistic,
-    restrict_policy,
-    uniform_policy,
-)
+from .policies import beta_policy, break_ties, restrict_policy, uniform_policy
 from .solvers import (
     action_values,
     evaluate_policy,

@@ -1,28 +1,21 @@
 """
-The three abstract policies of a source, and Table 1 of the paper.
+How well a policy drives: values of executed policies, and Table 1 of the paper.
 
 Page 7 of the book teaches this module.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
 from .abstraction import unseen_share
-from .builders.deduced import absprob_pi
+from .builders import BUILDERS, abstract_policies
 from .navigation import NavigationTasks
-from .policies import (
-    break_ties,
-    induce_nondeterministic,
-    induce_probabilistic,
-    restrict_policy,
-    uniform_policy,
-)
-from .solvers import evaluate_policy, optimal_actions, optimal_values
+from .policies import restrict_policy, uniform_policy
+from .solvers import evaluate_policy, optimal_values
 
-BUILDERS = ("nd", "prob", "grad")
 ROWS = ("rand", *BUILDERS, "optimal")
 NAMES = {
     "rand": "pi_rand",
@@ -37,93 +30,55 @@ PAPER = {
 }
 
 
-def abstract_policies(
-    tasks: NavigationTasks,
-    builders: Iterable[str] = BUILDERS,
-    *,
-    ties: str = "share",
-    rng=None,
-    progress: Callable[[Iterable], Iterable] = iter,
-) -> dict[str, np.ndarray]:
+def executed_values(
+    tasks: NavigationTasks, policies: Mapping[str, np.ndarray]
+) -> dict[str, float]:
     """
-    Return abstract policies (Z, A) built from source tasks, by builder.
+    Return how well abstract policies (Z, A) drive in tasks, by name.
 
-    Parameters
-    ----------
-    tasks : NavigationTasks
-        The solved tasks: one, those of a map, or those of several maps.
-    builders : iterable of {"nd", "prob", "grad"}
-    ties, rng
-        As for :func:`~abstransfer.policies.break_ties`.
-    progress
-        As for :func:`~abstransfer.builders.deduced.absprob_pi`.
-
-    Raises
-    ------
-    ValueError
-        If a builder is unknown, or ``"grad"`` is asked for where actions are
-        masked and the features do not tell which ones.
-
-    Examples
-    --------
-    Behind the only door lies the goal: both builders say "go to the room".
+    The value of a policy is the mean of V over all cells of all tasks, goals
+    included, in discounted reward.  Actions that are masked are left out.
 
     >>> from abstransfer.maps import parse_map
-    >>> from abstransfer.abstraction import describe
     >>> from abstransfer.navigation import navigation_tasks
-    >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"))
-    >>> describe(tasks.rho[0])
-    'see_room_head_to_goal ^ near_goal'
-    >>> policies = abstract_policies(tasks, ("nd", "prob"))
-    >>> tasks.actions[policies["prob"][tasks.rho[0]].argmax()]
-    'see_room_head_to_goal'
+    >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"), success=1)
+    >>> go = abstract_policies(tasks, ["nd"])  # the cell costs 1, the goal nothing
+    >>> executed_values(tasks, go)
+    {'nd': -0.5}
     """
-    builders = tuple(builders)
-    for builder in builders:
-        if builder not in BUILDERS:
-            raise ValueError(f"builders must be among {BUILDERS}, got {builder!r}")
-    mdp, rho, possible = tasks.mdp, tasks.rho, tasks.possible
-    policies = {}
-    if "nd" in builders or "prob" in builders:
-        optimal = optimal_actions(mdp, optimal_values(mdp))
-        votes = break_ties(optimal, ties, rng=rng)
-        policies["nd"] = induce_nondeterministic(votes, rho, possible)
-        policies["prob"] = induce_probabilistic(votes, rho, possible)
-    if "grad" in builders:
-        if (possible[rho] & ~mdp.allowed)[~mdp.terminal].any():
-            raise ValueError(
-                'builders must not hold "grad" where the features do not tell which '
-                'actions are masked; make the tasks with unavailable="wait"'
-            )
-        policies["grad"] = absprob_pi(mdp, rho, possible, progress=progress).policy
-    return {builder: policies[builder] for builder in builders}
+    return {
+        name: _mean_value(tasks, policy[tasks.rho]) for name, policy in policies.items()
+    }
 
 
 def column(
-    tasks: NavigationTasks, policies: dict[str, np.ndarray]
+    tasks: NavigationTasks, policies: Mapping[str, np.ndarray]
 ) -> dict[str, int | float]:
     """
     Return one column of Table 1, with the counts of its maps.
 
-    Values are the mean of V over all cells of all tasks, goals included, in
-    discounted reward; ``abstract_states`` counts those of non-goal cells.
+    Values are those of :func:`executed_values`; ``abstract_states`` counts those
+    of non-goal cells.
     """
     mdp = tasks.mdp
-    guides = {"rand": uniform_policy(mdp.allowed)}
-    for name, policy in policies.items():
-        guides[name] = restrict_policy(policy[tasks.rho], mdp.allowed)
-    guides["uniform_available"] = uniform_policy(tasks.available)
     counts = {
         "cells": sum(map_.n_cells for map_ in tasks.maps),
         "rooms": sum(map_.n_rooms for map_ in tasks.maps),
         "goals": len(tasks.goal),
         "abstract_states": len(np.unique(tasks.rho[~mdp.terminal])),
     }
-    values = {
-        name: float(evaluate_policy(mdp, guide).mean())
-        for name, guide in guides.items()
+    return {
+        **counts,
+        "rand": _mean_value(tasks, uniform_policy(mdp.allowed)),
+        **executed_values(tasks, policies),
+        "uniform_available": _mean_value(tasks, uniform_policy(tasks.available)),
+        "optimal": float(optimal_values(mdp).mean()),
     }
-    return counts | values | {"optimal": float(optimal_values(mdp).mean())}
+
+
+def _mean_value(tasks: NavigationTasks, policy: np.ndarray) -> float:
+    allowed = restrict_policy(policy, tasks.mdp.allowed)
+    return float(evaluate_policy(tasks.mdp, allowed).mean())
 
 
 def table1(

@@ -16,11 +16,9 @@ from functools import lru_cache, partial
 import numpy as np
 
 from .._paths import DATA
-from ..driving import BUILDERS, abstract_policies
+from ..builders import BUILDERS, abstract_policies
 from ..maps import Map, read_map
 from ..navigation import NavigationTasks, navigation_tasks
-from ..policies import restrict_policy
-from ..solvers import evaluate_policy
 
 GUIDES = ("rand", *BUILDERS)
 
@@ -124,19 +122,11 @@ def build_guides(problem: Problem, names: Iterable[str]) -> dict[str, np.ndarray
     return guides
 
 
-def executed_values(problem: Problem, guides: dict[str, np.ndarray]) -> dict:
-    """Return the value of driving by each guide in the target, as in Table 1."""
-    tasks = navigation_tasks(
+def driving_tasks(problem: Problem) -> NavigationTasks:
+    """Return the tasks in which a policy is driven: those of the target, at a cost."""
+    return navigation_tasks(
         problem.target, success=problem.success, unavailable=problem.unavailable
     )
-    allowed = tasks.mdp.allowed
-    policies = {
-        name: restrict_policy(p[tasks.rho], allowed) for name, p in guides.items()
-    }
-    return {
-        name: float(evaluate_policy(tasks.mdp, policy).mean())
-        for name, policy in policies.items()
-    }
 
 
 def digest(data: bytes) -> str:

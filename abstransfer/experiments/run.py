@@ -18,9 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ..driving import executed_values
 from .arms import ARMS, Arm, Scale
 from .plan import SEED, Plan, differences, make_jobs, make_plan, parameters
-from .problem import Problem, executed_values
+from .problem import Problem, driving_tasks
 from .results import (
     TABLE,
     Results,
@@ -145,7 +146,7 @@ def _record(plan: Plan, seconds: float, wall: float | None) -> dict:
     packages = ("abstransfer", "numpy", "scipy", "numba")
     return {
         "parameters": parameters(plan),
-        "executed": executed_values(plan.problem, plan.guides),
+        "executed": executed_values(driving_tasks(plan.problem), plan.guides),
         "seconds": {
             "cores": round(seconds, 2),
             "wall": wall and round(wall, 2),  # None if it was interrupted

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..abstraction import FEATURES
-from ..driving import BUILDERS, abstract_policies, column
+from ..builders import BUILDERS, abstract_policies
+from ..driving import column
 from ..experiments.arms import PAPER_STEPS
 from ..maps import Map, read_map
 from ..navigation import NavigationTasks, navigation_tasks

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..driving import BUILDERS
+from ..builders import BUILDERS
 from ..experiments.arms import STRATEGIES
 from ..experiments.curves import SMOOTH, asymptotic_level, critical_point, rises
 from ..experiments.results import Results

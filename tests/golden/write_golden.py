@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import abstransfer as at
-from abstransfer.driving import PAPER, abstract_policies
+from abstransfer.builders import abstract_policies
+from abstransfer.driving import PAPER
 from abstransfer.experiments.arms import ARMS, TAUS
 from abstransfer.learning import q_learning
 from abstransfer.maps import DIRECTIONS

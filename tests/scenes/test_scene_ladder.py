@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scene_tab import bare, number
 
-from abstransfer.driving import BUILDERS, PAPER, ROWS
+from abstransfer.builders import BUILDERS
+from abstransfer.driving import PAPER, ROWS
 from abstransfer.maps import read_map
 from abstransfer.scenes import Ladder
 

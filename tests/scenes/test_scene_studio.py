@@ -7,7 +7,8 @@ import pytest
 import traitlets
 from scene_tab import bare, number
 
-from abstransfer.driving import PAPER, ROWS, abstract_policies, column
+from abstransfer.builders import abstract_policies
+from abstransfer.driving import PAPER, ROWS, column
 from abstransfer.maps import parse_map, read_map, tile_map
 from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Studio

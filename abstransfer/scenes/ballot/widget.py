@@ -8,12 +8,13 @@ import numpy as np
 import traitlets
 
 from ...abstraction import LABELS
+from ...builders import count_votes
 from ...driving import PAPER
 from ...maps import Map
 from ...navigation import navigation_tasks
 from ...plotting.cells import count
 from ...plotting.style import number
-from ...policies import break_ties, count_votes
+from ...policies import break_ties
 from ..base import MapTrait, Scene, Still
 from ..dial.widget import BETAS, LAST, STEP, _driving, _policy
 from ..parts.counts import _optimal

@@ -7,8 +7,9 @@ from functools import lru_cache
 import numpy as np
 import traitlets
 
+from ...driving import executed_values
 from ...experiments.arms import PAPER_STEPS, STRATEGIES, Arm
-from ...experiments.problem import Problem, build_guides, executed_values
+from ...experiments.problem import Problem, build_guides, driving_tasks
 from ...plotting.style import number
 from ...policies import beta_policy
 from ..base import Still
@@ -155,4 +156,4 @@ def _policy(source, beta: float) -> np.ndarray:
 @lru_cache(maxsize=256)
 def _driving(source, target, beta: float) -> float:
     guides = {"policy": _policy(source, beta)}
-    return executed_values(Problem(source=source, target=target), guides)["policy"]
+    return executed_values(driving_tasks(Problem(target=target)), guides)["policy"]

@@ -6,7 +6,8 @@ from functools import lru_cache
 
 import traitlets
 
-from ...driving import BUILDERS, PAPER, ROWS, table1
+from ...builders import BUILDERS
+from ...driving import PAPER, ROWS, table1
 from ...maps import Map, read_map
 from ...navigation import navigation_tasks
 from ...plotting.cells import count

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...abstraction import FEATURES, unseen_share
+from ...builders import count_votes
 from ...maps import Map
 from ...navigation import navigation_tasks
-from ...policies import count_votes
 from ...solvers import optimal_actions, optimal_values
 
 

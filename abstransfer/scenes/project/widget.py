@@ -7,7 +7,7 @@ from functools import lru_cache
 import traitlets
 
 from ...abstraction import FEATURES
-from ...driving import BUILDERS
+from ...builders import BUILDERS
 from ...plotting.cells import count
 from ...plotting.style import number
 from ...project.project_card import card_text

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import traitlets
 
-from ...driving import BUILDERS, PAPER, ROWS, abstract_policies, column
+from ...builders import BUILDERS, abstract_policies
+from ...driving import PAPER, ROWS, column
 from ...maps import Map, read_map
 from ...navigation import NavigationTasks, navigation_tasks
 from ...plotting.cells import count
