@@ -32,7 +32,7 @@ from .builders.deduced import (
     random_starts,
 )
 from .driving import format_table1, table1
-from .maps import Map, parse_map, read_map, tile_map
+from .maps import Map, parse_map, read_map
 from .mdp import MDP
 from .navigation import NavigationTasks, navigation_tasks
 from .policies import beta_policy, break_ties, restrict_policy, uniform_policy
@@ -75,7 +75,6 @@ __all__ = [
     "read_map",
     "restrict_policy",
     "table1",
-    "tile_map",
     "transition_matrix",
     "uniform_policy",
     "unseen_share",

@@ -23,22 +23,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ._map_text import (
-    CORRIDOR,
-    DOOR,
-    GOAL,
-    OPEN,
-    ROOM,
-    STEP,
-    WALLS,
-    check_building,
-    check_characters,
-    components,
-    rectangle,
-    to_text,
-)
 from ._paths import DATA
 
+CORRIDOR, ROOM, GOAL = ".", " ", "*"
+WALLS = ("-", "|")
+DOOR, OPEN = "d", " "
+STEP = np.array([[-1, 0], [0, 1], [1, 0], [0, -1]])  # (4, 2): row, column
 DIRECTIONS = ("N", "E", "S", "W")
 
 
@@ -119,7 +109,7 @@ class Map:
     @cached_property
     def regions(self) -> np.ndarray:
         """Region of each cell, shape (C,): cells joined without a door."""
-        return _frozen(components(np.where(self.doors, -1, self.neighbors)))
+        return _frozen(_components(np.where(self.doors, -1, self.neighbors)))
 
     @property
     def n_rooms(self) -> int:
@@ -188,7 +178,7 @@ class Map:
         chars = self.chars.copy()
         for place, char in changes.items():
             chars[place] = char
-        return parse_map(to_text(chars))
+        return parse_map(_to_text(chars))
 
 
 def parse_map(text: str) -> Map:
@@ -219,10 +209,10 @@ def parse_map(text: str) -> Map:
     while lines and not lines[-1].strip():
         lines.pop()
     n_blank = next((i for i, line in enumerate(lines) if line.strip()), 0)
-    chars = rectangle(lines[n_blank:], n_blank)
-    check_characters(chars, n_blank)
-    map_ = Map(to_text(chars))
-    check_building(map_, n_blank)
+    chars = _rectangle(lines[n_blank:], n_blank)
+    _check_characters(chars, n_blank)
+    map_ = Map(_to_text(chars))
+    _check_building(map_, n_blank)
     return map_
 
 
@@ -251,29 +241,124 @@ def read_map(source: str | Path) -> Map:
         raise ValueError(f"{path}: {error}") from None
 
 
-def tile_map(map_: Map, rows: int, columns: int) -> Map:
-    """
-    Return a building of rows x columns copies, neighbours joined by one door.
-
-    For measuring how cost grows with the size of a building.
-
-    >>> tile_map(read_map("source"), 2, 2)
-    Map(18 x 30 cells, 44 rooms, 44 goals)
-    """
-    if rows < 1 or columns < 1:
-        raise ValueError(f"rows and columns must be at least 1, got {rows}, {columns}")
-    height, width = map_.shape
-    chars = np.full((2 * height * rows + 1, 2 * width * columns + 1), "+")
-    for i in range(rows):
-        for j in range(columns):
-            top, left = 2 * height * i, 2 * width * j
-            chars[top : top + 2 * height + 1, left : left + 2 * width + 1] = map_.chars
-    middle_row, middle_column = 2 * (height // 2) + 1, 2 * (width // 2) + 1
-    chars[middle_row :: 2 * height, 2 * width : -1 : 2 * width] = DOOR
-    chars[2 * height : -1 : 2 * height, middle_column :: 2 * width] = DOOR
-    return parse_map(to_text(chars))
-
-
 def _frozen(array: np.ndarray) -> np.ndarray:
     array.flags.writeable = False
     return array
+
+
+def _components(neighbors: np.ndarray) -> np.ndarray:
+    """Return the connected component of each cell, (C,), for neighbors (C, 4)."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    start, direction = np.nonzero(neighbors >= 0)
+    size = len(neighbors)
+    links = (np.ones(len(start)), (start, neighbors[start, direction]))
+    return connected_components(coo_array(links, shape=(size, size)))[1]
+
+
+def _to_text(chars: np.ndarray) -> str:
+    """Draw the corners that the edges make; return the picture as text."""
+    chars = chars.copy()
+    solid = np.pad(np.isin(chars, (*WALLS, DOOR)), 1)
+    north, south = solid[:-2:2, 1:-1:2], solid[2::2, 1:-1:2]
+    west, east = solid[1:-1:2, :-2:2], solid[1:-1:2, 2::2]
+    corner = np.full(north.shape, "+")
+    corner[north & south & ~west & ~east] = "|"
+    corner[west & east & ~north & ~south] = "-"
+    corner[~(north | south | west | east)] = " "
+    chars[::2, ::2] = corner
+    return "\n".join("".join(line) for line in chars)
+
+
+def _refuse(row: int, column: int, problem: str, remedy: str):
+    raise ValueError(f"row {row + 1}, column {column + 1}: {problem}; {remedy}")
+
+
+def _rectangle(lines: list[str], n_blank: int) -> np.ndarray:
+    """Return the characters of lines of one length, or _refuse the first other."""
+    if not lines:
+        raise ValueError("the map is empty; draw at least two cells, one a goal")
+    for i, line in enumerate(lines):
+        if len(line) != len(lines[0]):
+            problem = f"this line has {len(line)} characters, the first {len(lines[0])}"
+            place = min(len(line), len(lines[0]))
+            _refuse(n_blank + i, place, problem, "make all lines equally long")
+    rows, columns = len(lines), len(lines[0])
+    if (
+        rows % 2 == 0
+        or columns % 2 == 0
+        or min(rows, columns) < 3
+        or rows * columns < 15
+    ):
+        raise ValueError(
+            "H x W cells take 2H+1 rows and 2W+1 columns of text, two cells or "
+            f"more; got {rows} rows and {columns} columns"
+        )
+    return np.array([list(line) for line in lines])
+
+
+def _check_characters(chars: np.ndarray, n_blank: int) -> None:
+    """Refuse the first character that cannot stand where it does."""
+    kinds = (
+        (slice(0, None, 2), slice(0, None, 2), "corner", "+-| "),
+        (slice(1, None, 2), slice(1, None, 2), "cell", CORRIDOR + ROOM + GOAL),
+        (slice(0, None, 2), slice(1, None, 2), "edge", WALLS[0] + DOOR + OPEN),
+        (slice(1, None, 2), slice(0, None, 2), "edge", WALLS[1] + DOOR + OPEN),
+    )
+    for rows, columns, kind, known in kinds:
+        unknown = np.argwhere(~np.isin(chars[rows, columns], list(known)))
+        if len(unknown):
+            row, column = unknown[0] * 2 + [rows.start, columns.start]
+            char = str(chars[row, column]) or "\0"  # NumPy drops a trailing NUL
+            problem = f"unknown character {char!r}"
+            remedy = f"the {kind} here must be one of {', '.join(map(repr, known))}"
+            _refuse(n_blank + row, column, problem, remedy)
+    border = np.ones(chars.shape, bool)
+    border[1:-1, 1:-1] = False
+    border[::2, ::2] = False  # corners carry no information
+    holes = np.argwhere(border & np.isin(chars, (OPEN, DOOR)))
+    if len(holes):
+        row, column = holes[0]
+        _refuse(n_blank + row, column, "the border has a hole", "put a wall there")
+
+
+def _check_building(map_, n_blank: int) -> None:
+    """Refuse a drawing that is no building a robot can learn in."""
+    cells, regions = map_.cells, map_.regions
+    neighbors, doors = map_.neighbors, map_.doors
+
+    def refuse_first(bad, problem, remedy):
+        """Refuse the first True of bad, (C,) for cells or (C, 4) for edges."""
+        places = np.argwhere(bad)
+        if len(places):
+            cell, *direction = places[0]
+            row, column = np.array(divmod(cell, map_.shape[1])) * 2 + 1
+            d_row, d_column = STEP[direction[0]] if direction else (0, 0)
+            _refuse(n_blank + row + d_row, column + d_column, problem, remedy)
+
+    is_corridor = cells == CORRIDOR
+    other = np.where(neighbors >= 0, neighbors, 0)  # behind a wall: any cell will do
+    refuse_first(
+        (neighbors >= 0) & ~doors & is_corridor[:, None] & (cells[other] == ROOM),
+        "a room opens on the corridor",
+        "put a wall or a door there",
+    )
+    refuse_first(
+        np.isin(regions, regions[is_corridor]) & (cells == GOAL),
+        "a goal in the corridor",
+        "move it into a room, or make its cells a room with walls and a door",
+    )
+    refuse_first(
+        doors & (regions[:, None] == regions[other]),
+        "the door joins a region to itself",
+        "make it a wall, or close the walls of the region",
+    )
+    if not (cells == GOAL).any():
+        raise ValueError("the map has no goal; put '*' in a cell of a room")
+    part = _components(neighbors)
+    refuse_first(
+        part != np.bincount(part).argmax(),
+        "this region cannot be reached from the rest of the building",
+        "put a door in one of its walls",
+    )

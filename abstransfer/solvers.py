@@ -10,12 +10,14 @@ Page 2 of the book teaches this module.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csr_array, eye_array
-from scipy.sparse.linalg import splu
 
 from .mdp import MDP, check_policy
+
+if TYPE_CHECKING:  # SciPy takes longer to load than all else: only where it is used
+    from scipy.sparse import csr_array
 
 TIE = 1e-9  # actions whose values differ by less, in rewards, are equally good
 
@@ -31,6 +33,8 @@ def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
     array([[0.5, 0.5],
            [0. , 0. ]])
     """
+    from scipy.sparse import csr_array
+
     state, action, next_state, prob = mdp.transitions
     weight = np.where(mdp.terminal[state], 0.0, policy[state, action] * prob)
     shape = (mdp.n_states, mdp.n_states)
@@ -41,6 +45,9 @@ def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
 
 def factorize(mdp: MDP, transitions: csr_array):
     """Return the sparse LU factors of I - gamma P, for P (S, S)."""
+    from scipy.sparse import eye_array
+    from scipy.sparse.linalg import splu
+
     return splu(eye_array(mdp.n_states, format="csc") - mdp.gamma * transitions.tocsc())
 
 

@@ -19,7 +19,6 @@ MODULES = sorted(path.stem for path in PACKAGE.glob("*.py"))
 # A module may use those to its left, itself or through others (design 3).
 ORDER = [
     "_paths",
-    "_map_text",
     "maps",
     "mdp",
     "navigation",
@@ -111,9 +110,7 @@ def test_the_version_is_that_of_the_installed_package():
 
 
 def test_the_imports_that_are_checked_are_found():
-    assert imported("maps") == {"_map_text", "_paths"}
     assert imported("navigation") == {"abstraction", "maps", "mdp"}
-    assert reached("navigation") == imported("navigation") | {"_map_text", "_paths"}
 
 
 @pytest.mark.parametrize("module", MODULES)
@@ -133,7 +130,7 @@ def test_a_module_needs_only_modules_to_its_left(module):
     sorted({"mdp", "solvers", "policies", "absprob_pi", "learning"} & set(MODULES)),
 )
 def test_solving_and_learning_know_nothing_of_buildings(module):
-    assert not reached(module) & {"maps", "navigation", "_map_text"}
+    assert not reached(module) & {"maps", "navigation"}
 
 
 @pytest.mark.parametrize("module", MODULES)

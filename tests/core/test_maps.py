@@ -7,11 +7,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from buildings import tile_map
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import map_texts
 
-from abstransfer import navigation_tasks, parse_map, read_map, tile_map
+from abstransfer import navigation_tasks, parse_map, read_map
 from abstransfer._paths import DATA
 from abstransfer.driving import table1
 

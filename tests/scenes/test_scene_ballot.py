@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from bs4 import BeautifulSoup
+from buildings import tile_map
 from scene_tab import bare, number
 from traitlets import TraitError
 
@@ -259,7 +260,7 @@ def test_a_tiny_and_a_huge_building(show):
     assert now == pytest.approx(scene.driving(), abs=1e-7)
     assert "the paper's" not in tab.root.inner_text()
 
-    huge = maps.tile_map(SMALL, 7, 4)
+    huge = tile_map(SMALL, 7, 4)
     assert huge.n_cells >= 3600
     tab = show(bare(Ballot, map=huge))
     counted(tab).pick(re.compile("^Bet first"), "ND")

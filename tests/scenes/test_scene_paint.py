@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from bs4 import BeautifulSoup
+from buildings import tile_map
 from scene_tab import bare, number
 from traitlets import TraitError
 
@@ -268,7 +269,7 @@ def test_other_buildings(show, size):
     if size == "tiny":
         scene = Paint(source=TWO_CELLS, map=TWO_CELLS, away=0)
     else:
-        huge = maps.tile_map(maps.read_map("source"), 6, 4)
+        huge = tile_map(maps.read_map("source"), 6, 4)
         assert huge.n_cells >= 54 * 60
         scene = Paint(map=huge, source="source")
     html = bare(Paint, **{name: getattr(scene, name) for name in scene.changed})

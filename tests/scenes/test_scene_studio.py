@@ -5,11 +5,12 @@ import re
 import numpy as np
 import pytest
 import traitlets
+from buildings import tile_map
 from scene_tab import bare, number
 
 from abstransfer.builders import abstract_policies
 from abstransfer.driving import PAPER, ROWS, column
-from abstransfer.maps import parse_map, read_map, tile_map
+from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Studio
 
