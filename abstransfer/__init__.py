@@ -15,27 +15,17 @@ pi      ``policy``            (S, A), or (Z, A) for an abstract policy
 V       ``v``                 (S,), expected discounted reward
 Q       ``q``                 (S, A), expected V of the state reached
 ======  ====================  =================================================
+
+The names below stand in the order of the pages.  What needs more than NumPy is loaded
+when it is first used: ``at.q_learning``, and the rooms, such as ``at.plotting``.
 """
 
-from .abstraction import FEATURES, LABELS, describe, unseen_share
-from .builders import (
-    abstract_policies,
-    count_votes,
-    induce_nondeterministic,
-    induce_probabilistic,
-)
-from .builders.deduced import (
-    Climb,
-    absprob_pi,
-    abstract_gradient,
-    natural_ascent,
-    random_starts,
-)
-from .driving import format_table1, table1
+import lazy_loader
+
 from .maps import Map, parse_map, read_map
 from .mdp import MDP
+from .abstraction import FEATURES, LABELS, describe, unseen_share
 from .navigation import NavigationTasks, navigation_tasks
-from .policies import beta_policy, break_ties, restrict_policy, uniform_policy
 from .solvers import (
     action_values,
     evaluate_policy,
@@ -44,39 +34,75 @@ from .solvers import (
     transition_matrix,
     value_iteration,
 )
+from .policies import beta_policy, break_ties, restrict_policy, uniform_policy
+from .builders import (
+    Climb,
+    absprob_pi,
+    abstract_gradient,
+    abstract_policies,
+    count_votes,
+    induce_nondeterministic,
+    induce_probabilistic,
+    natural_ascent,
+    random_starts,
+)
+from .driving import executed_values, format_table1, table1
 
 __version__ = "0.1.0"
 
+_LEARNING = ["q_learning", "q_learning_runs"]
+_ROOMS = [
+    "learning",
+    "experiments",
+    "plotting",
+    "reproduction",
+    "project",
+    "scenes",
+    "exercises",
+]
+__getattr__, __dir__, _ = lazy_loader.attach(
+    __name__, submodules=_ROOMS, submod_attrs={"learning": _LEARNING}
+)
+
 __all__ = [
-    "FEATURES",
-    "LABELS",
-    "MDP",
-    "Climb",
+    # page 1: a building as a decision problem
     "Map",
+    "parse_map",
+    "read_map",
+    "MDP",
     "NavigationTasks",
-    "absprob_pi",
-    "abstract_gradient",
-    "abstract_policies",
+    "navigation_tasks",
+    # page 2: solving what is known
+    "transition_matrix",
+    "evaluate_policy",
     "action_values",
-    "beta_policy",
+    "value_iteration",
+    "optimal_values",
+    "optimal_actions",
+    "uniform_policy",
+    "restrict_policy",
+    # page 3: learning by bumping
+    *_LEARNING,
+    # page 4: forgetting on purpose
+    "LABELS",
+    "FEATURES",
+    "describe",
+    "unseen_share",
+    # page 5: inducing
     "break_ties",
     "count_votes",
-    "describe",
-    "evaluate_policy",
-    "format_table1",
-    "induce_nondeterministic",
     "induce_probabilistic",
+    "induce_nondeterministic",
+    "beta_policy",
+    # page 6: deducing
+    "absprob_pi",
+    "Climb",
+    "abstract_gradient",
     "natural_ascent",
-    "navigation_tasks",
-    "optimal_actions",
-    "optimal_values",
-    "parse_map",
     "random_starts",
-    "read_map",
-    "restrict_policy",
+    # page 7: the driving test
+    "abstract_policies",
+    "executed_values",
     "table1",
-    "transition_matrix",
-    "uniform_policy",
-    "unseen_share",
-    "value_iteration",
+    "format_table1",
 ]

@@ -58,7 +58,7 @@ def abstract_policies(
     ties, rng
         As for :func:`~abstransfer.policies.break_ties`.
     progress
-        As for :func:`~abstransfer.builders.deduced.absprob_pi`.
+        As for :func:`~abstransfer.builders.absprob_pi`.
 
     Raises
     ------

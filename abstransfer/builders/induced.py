@@ -24,7 +24,7 @@ def induce_probabilistic(
     Parameters
     ----------
     policy : ndarray of float, shape (S, A)
-        Optimal policy of the source tasks, from :func:`break_ties`.
+        Optimal policy of the source tasks: :func:`~abstransfer.policies.break_ties`.
     rho : ndarray of int, shape (S,)
         Abstract state of each state, in 0..Z-1.
     fallback : ndarray of bool, shape (Z, A)

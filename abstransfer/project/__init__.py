@@ -1,1 +1,13 @@
 """A race in a building of one's own, and a card to hand in."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "racing": ["Race", "race"],
+        "setup": ["Setup", "drives", "run"],
+        "card": ["make_card", "read_card"],
+        "project_card": ["card_text", "verify"],
+    },
+)

@@ -1,1 +1,17 @@
-"""This one paper: its claims, all experiments of the book, verdicts, figures."""
+"""
+This one paper: its claims, all experiments of the book, verdicts, tables, figures.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules=["figures", "ledger"],
+    submod_attrs={
+        "catalogue": ["EXPERIMENTS", "reproduce"],
+        "study": ["BETAS", "SHARES", "make_guides"],
+        "claims": ["CLAIMS"],
+        "verdicts": ["combine", "judge"],
+        "tables": ["measures_table", "to_markdown", "totals_table"],
+    },
+)
