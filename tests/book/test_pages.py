@@ -9,9 +9,9 @@ import pytest
 from bs4 import BeautifulSoup
 from support import ROOT, toc_pages
 
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "benchmarks")]
 import reading_level
-from page_times import stated_seconds
+from pages import stated_seconds
 
 BOOK = ROOT / "book"
 LESSONS = sorted(BOOK.glob("[0-9]*.ipynb"))
