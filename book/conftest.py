@@ -6,7 +6,9 @@ from nbval.plugin import IPyNbCell
 # nbval leaves these out; a second run gives them too.  What stays out: the random names
 # of widgets, which the stored pages lack.
 COMPARED = {"metadata", "traceback", "name", "output_type"}
-PATIENCE = 120  # seconds for a message; nbval gives up after 5, too few on a busy machine
+# Seconds until a message of the kernel must be there.  nbval gives up after 5, which a
+# busy machine may take.
+PATIENCE = 120
 
 
 def pytest_collection_modifyitems(items):

@@ -2,14 +2,11 @@
 
 import json
 import re
-import sys
 
 import nbformat
 import pytest
-from support import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
 import refresh_notebooks
+from support import ROOT
 
 NOTEBOOKS = sorted((ROOT / "book").glob("*.ipynb"))
 WIDGET = "application/vnd.jupyter.widget-view+json"

@@ -1,15 +1,11 @@
 """The tool that runs the notebooks: what is random is settled, all else is kept."""
 
 import json
-import sys
 
 import nbformat
 import pytest
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
-from support import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
 import refresh_notebooks
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 from refresh_notebooks import (
     drop_scenes,
     fold_solutions,

@@ -6,12 +6,10 @@ import subprocess
 import sys
 
 import pytest
-from bs4 import BeautifulSoup
-from support import ROOT, toc_pages
-
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "benchmarks")]
 import reading_level
+from bs4 import BeautifulSoup
 from pages import stated_seconds
+from support import ROOT, toc_pages
 
 BOOK = ROOT / "book"
 LESSONS = sorted(BOOK.glob("[0-9]*.ipynb"))

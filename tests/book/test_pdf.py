@@ -4,14 +4,12 @@ import re
 import subprocess
 import sys
 
+import one_page
+import pdf
 import pytest
 import yaml
 from bs4 import BeautifulSoup
 from support import ROOT, toc_pages
-
-sys.path.insert(0, str(ROOT / "scripts"))
-import one_page
-import pdf
 
 from abstransfer.cli.doctor import Check
 

@@ -2,14 +2,11 @@
 
 import copy
 import json
-import sys
 
-import pytest
-from support import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts"))
 import prose_numbers
+import pytest
 from prose_numbers import orphans, prose
+from support import ROOT
 
 PAGES = sorted((ROOT / "book").glob("*.ipynb"))
 

@@ -2,18 +2,15 @@
 
 import json
 import re
-import sys
 
 import nbformat
 import pytest
+import student_edition
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+from student_edition import MARK, stub, without_solutions
 from support import ROOT
 
 from abstransfer.exercises import all_exercises
-
-sys.path.insert(0, str(ROOT / "scripts"))
-import student_edition
-from student_edition import MARK, stub, without_solutions
 
 PAGES = sorted((ROOT / "book").glob("*.ipynb"))
 KNOWN = {exercise.key: exercise for exercise in all_exercises()}
