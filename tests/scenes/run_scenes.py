@@ -65,24 +65,6 @@ class Shown(SceneTab):
         _, head, lines = self.table()
         return [int(line[head.index(name)].replace(",", "")) for line in lines]
 
-    def seconds_per_move(self, slider, step):
-        """The median time in which the scene follows a slider."""
-        return self.page.evaluate(
-            """async ([slider, step]) => {
-                const input = document.querySelector(slider);
-                const times = [];
-                for (let i = 1; i < 10; i++) {
-                    const start = performance.now();
-                    input.value = step * i;
-                    input.dispatchEvent(new Event("input"));
-                    await new Promise(requestAnimationFrame);
-                    times.push(performance.now() - start);
-                }
-                return times.sort((a, b) => a - b)[4] / 1000;
-            }""",
-            [slider, step],
-        )
-
 
 @pytest.fixture
 def show(open_scene):

@@ -14,6 +14,43 @@ PAGE = """<!doctype html>
 <body><main><h1>A scene</h1>{scene}</main><script>{script}</script></body></html>"""
 FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
 
+# What an act costs a reader's machine, in a measure that all machines agree on: how
+# many nodes and attributes of the scene are written until two pictures later.
+WRITTEN = """async (acts) => {
+    const pictures = () =>
+        new Promise((f) => requestAnimationFrame(() => requestAnimationFrame(f)));
+    let n = 0;
+    const observer = new MutationObserver((records) => {
+        for (const { addedNodes, removedNodes } of records)
+            n += Math.max(addedNodes.length + removedNodes.length, 1);
+    });
+    const all = { attributes: true, characterData: true, childList: true };
+    const root = document.querySelector(".abstransfer-scene");
+    observer.observe(root, { ...all, subtree: true });
+    const counts = [];
+    for (const act of acts) {
+        n = 0;
+        act();
+        await pictures();
+        counts.push(n);
+    }
+    observer.disconnect();
+    return counts;
+}"""
+MOVES = """([slider, step]) => [1, 2, 3, 4, 5, 6, 7, 8, 9].map((i) => () => {
+    const input = document.querySelector(slider);
+    input.value = step * i;
+    input.dispatchEvent(new Event("input"));
+})"""
+AT_ONCE = """(name) => {
+    const div = document.body.appendChild(document.createElement("div"));
+    div.className = "abstransfer-scene";
+    const { leave } = abstransfer.mount(div, name);
+    const n = div.querySelectorAll(".ab-body *").length;
+    leave();
+    return [n, div.childNodes.length];
+}"""
+
 
 class SceneTab:
     """A scene as a reader handles it."""
@@ -82,6 +119,19 @@ class SceneTab:
             ".map(row => [...row.cells].map(cell => cell.textContent))"
             ".map(([name, ...rest]) => [name, rest]))"
         )
+
+    def writes(self, acts, *arguments):
+        """How much is written by each of some acts: code that returns functions."""
+        code = f"(argument) => ({WRITTEN})(({acts})(argument))"
+        return self.page.evaluate(code, *arguments)
+
+    def writes_by_moves(self, slider, step):
+        """How much is written by each of nine moves of a slider."""
+        return self.writes(MOVES, [slider, step])
+
+    def nodes_at_once(self, name):
+        """How many nodes a scene has as soon as it is mounted, and when it is left."""
+        return self.page.evaluate(AT_ONCE, name)
 
     def url_with(self, part):
         self.page.wait_for_function("part => location.hash.includes(part)", arg=part)

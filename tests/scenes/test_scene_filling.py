@@ -164,9 +164,9 @@ def test_by_keyboard_alone_to_the_end_in_the_dark_on_a_phone(page):
     assert scene.problems == []
 
 
-def test_ends_of_the_slider_quick_changes_and_the_time_they_take(page):
+def test_ends_of_the_slider_quick_changes_and_how_much_they_paint(page):
     scene = page("#filling.claim=5").bet("2 to 5 lives")
-    assert scene.seconds_per_move(".ab-timeline input", 5) < 0.1
+    assert max(scene.writes_by_moves(".ab-timeline input", 5)) < 400
     slider = scene.slider("Lives")
     for value in ("2", "50", "7", "31", "12"):
         slider.fill(value)

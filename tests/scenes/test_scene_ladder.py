@@ -2,7 +2,6 @@
 
 import re
 
-import numpy as np
 import pytest
 from scene_tab import bare, number
 
@@ -165,17 +164,19 @@ def test_small_large_and_illegal_sources(open_scene):
 
 # By keyboard; speed; looks
 
-PLACES = """async (value) => {  // of the lowest rung of the source, picture by picture
+PLACES = """async (value) => {  // of the lowest rung of the source, till it rests
     const slider = document.querySelector(".ab-slider input");
     slider.value = value;
     slider.dispatchEvent(new Event("input"));
     const places = new Set();
-    const end = performance.now() + 700;
-    while (performance.now() < end) {
+    for (let same = 0; same < 40; same++) {
         await new Promise(requestAnimationFrame);
         const names = [...document.querySelectorAll(".ab-chart text.ab-name")];
         const rung = names.find((name) => name.textContent.startsWith("random −"));
-        if (rung) places.add(rung.getAttribute("y"));
+        const y = rung?.getAttribute("y");
+        if (!rung || places.has(y)) continue;
+        places.add(y);
+        same = 0;
     }
     return places.size;
 }"""
@@ -231,33 +232,13 @@ def test_names_of_rungs_never_overlap_and_nothing_is_cut(open_scene, width):
     assert tab.page.evaluate(PLACES, 0.9) <= 2, "no gliding where it is unwelcome"
 
 
-def test_rungs_answer_at_once_and_the_scene_opens_quickly(open_scene):
-    tab = ladder(open_scene)
-    opened = tab.page.evaluate(
-        "performance.getEntriesByName('first-contentful-paint')[0].startTime"
-    )
-    solved(bets(tab)).rows()
-    times = tab.page.evaluate(
-        """async () => {
-            const slider = document.querySelector(".ab-slider input");
-            const row = () => document.querySelectorAll(".ab-twin tbody tr")[1];
-            const times = [];
-            for (let i = 0; i < 7; i++) {
-                const start = performance.now();
-                slider.value = 0.6 + i / 20;
-                slider.dispatchEvent(new Event("input"));
-                await new Promise(requestAnimationFrame);
-                while (row().cells[3].textContent === "–")
-                    await new Promise(f => setTimeout(f, 4));
-                times.push(performance.now() - start);
-            }
-            return times;
-        }"""
-    )
+def test_rungs_glide_and_a_move_paints_no_building(open_scene):
+    tab = solved(bets(ladder(open_scene, reduced_motion="reduce")))
+    moves = tab.writes_by_moves(".ab-slider input", 0.1)
+    assert max(moves) < 500
 
-    assert tab.page.evaluate(PLACES, 0.5) > 3, "rungs glide"
-    assert np.median(times) < 300, times  # 0.2 s on a free machine
-    assert opened < 2_000
+    tab = solved(bets(ladder(open_scene)))
+    assert tab.page.evaluate(PLACES, 0.5) > 3
     tab.page.goto("about:blank")
     assert tab.problems == []
 

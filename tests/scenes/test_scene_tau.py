@@ -225,11 +225,10 @@ def test_on_a_phone_with_little_motion(show, slider):
     assert scene.violations() == []
 
 
-def test_the_schedule_follows_the_hand_at_once(show, slider):
+def test_the_schedule_follows_the_hand_and_the_rest_waits(show, slider):
     scene = show(slider)
-    seconds = scene.seconds_per_move(".ab-slider input", 1e6)
 
-    assert seconds < 0.1
+    assert all(0 < n < 400 for n in scene.writes_by_moves(".ab-slider input", 1e6))
 
 
 def test_options_are_small(slider):
