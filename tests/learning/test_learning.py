@@ -383,13 +383,6 @@ def test_a_run_on_the_target_map_is_the_same_on_every_machine(
     assert sha256(result.q.tobytes()).hexdigest()[:16] == digest
 
 
-def test_importing_the_package_does_not_import_numba():
-    code = "import sys, abstransfer; print('numba' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-
-    assert done.stdout.strip() == "False"
-
-
 def test_the_first_call_says_that_it_compiles(tmp_path):
     code = (
         "import numpy as np; from abstransfer import MDP;"

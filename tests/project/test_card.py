@@ -184,4 +184,6 @@ def test_a_card_is_saved_as_text_or_data_only(card, tmp_path):
     with pytest.raises(ValueError, match=r"end in \.md or \.json, got 'card\.pdf'"):
         card.save(tmp_path / "card.pdf")
 
-    assert json.dumps(card.counts)  # whole numbers of Python, not of numpy
+    counts = json.loads(json.dumps(card.counts))  # numbers of Python, not of numpy
+    assert counts == card.counts
+    assert counts

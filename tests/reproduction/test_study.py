@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from abstransfer import MDP, induce_nondeterministic, navigation_tasks, read_map
-from abstransfer.experiments.arms import Scale
+from abstransfer.experiments.arms import ARMS, Scale
 from abstransfer.experiments.diagnosis import arrival, can_arrive, notes_after
 from abstransfer.experiments.plan import make_plan, parameters
 from abstransfer.experiments.problem import Problem, build_guides, target_tasks
@@ -79,10 +79,16 @@ def test_an_unknown_guide_is_refused():
 
 
 def test_every_guide_of_a_strategy_has_the_same_tau():
+    prob = {arm.strategy: arm.tau for arm in ARMS if arm.guide == "prob"}
+    assert prob == TAU, "the paper's, of Prob"
     for study in STUDIES:
-        taus = {arm.tau for arm in study.arms if arm.strategy == "soft"}
-        assert taus <= {TAU["soft"]}
-        assert study.arms[0].name == "none"
+        first, *guided = study.arms
+        found = {(arm.strategy, arm.tau) for arm in guided}
+        assert first.name == "none"
+        if study.folder == "study-tau-target":  # it asks how much tau matters
+            assert len(found) == 5
+        else:
+            assert found == {(each, prob[each]) for each in study.strategies}
 
 
 def test_a_study_runs_resumes_and_has_the_luck_of_the_other_experiments(tmp_path):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scene_tab import bare, number
 from support import ROOT
+from traitlets import TraitError
 
 from abstransfer.builders.deduced import absprob_pi, abstract_gradient
 from abstransfer.scenes.hill.widget import HALL, LAST, RHO, STARTS, Hill, page
@@ -300,7 +301,7 @@ def test_ends_of_sliders_quick_changes_and_what_they_draw_anew(hill):
 
 
 def test_a_wrong_value_is_refused():
-    for wrong in ({"p": 1.1}, {"start": "roof"}, {"t": 301}):
-        with pytest.raises(Exception, match="trait"):
-            Hill(**wrong)
+    for name, wrong in {"p": 1.1, "start": "roof", "t": 301}.items():
+        with pytest.raises(TraitError, match=f"'?{name}'? trait .*{wrong}"):
+            Hill(**{name: wrong})
     assert repr(Hill(q=0.5, start="both")) == "Hill(q=0.5, start='both')"

@@ -3,7 +3,6 @@
 import json
 import re
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -217,11 +216,6 @@ def test_a_rule_may_not_write_into_the_values_or_return_nonsense():
     assert max(row[6] for row in own_trace(tasks, 0.0, 4, spoiler)) == 0
     with pytest.raises(ValueError, match="update must return a finite number, got inf"):
         own_trace(tasks, 0.0, 4, lambda *_: np.inf)
-
-
-def test_widgets_are_not_loaded_with_the_package():
-    program = "import abstransfer, sys; assert 'anywidget' not in sys.modules"
-    subprocess.run([sys.executable, "-c", program], check=True)
 
 
 def test_every_scene_is_in_the_reference():
