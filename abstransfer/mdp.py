@@ -12,6 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
+LARGEST = 1e290  # of a reward: so that no sum of discounted ones is infinite
+
 
 @dataclass(frozen=True, eq=False)
 class MDP:
@@ -27,7 +29,7 @@ class MDP:
     prob : ndarray of float, shape (S, A, K)
         Probability of that outcome; each ``prob[s, a]`` sums to 1.
     reward : ndarray of float, shape (S,)
-        Reward for *reaching* a state (the paper's R).
+        Reward for *reaching* a state (the paper's R), within -1e290..1e290.
     terminal : ndarray of bool, shape (S,)
         States that end the episode; their value is 0.
     gamma : float
@@ -71,14 +73,18 @@ class MDP:
         allowed = np.ones((n_states, n_actions), bool)
         if self.allowed is not None:
             allowed = _array("allowed", self.allowed, np.bool_, 2, allowed.shape)
-        _check_rows(prob)
+        check_rows(prob)
         outside = (next_state < 0) | (next_state >= n_states)
         _refuse_first(outside, f"next_state must lie in 0..{n_states - 1}", next_state)
-        _refuse_first(~np.isfinite(reward), "reward must be finite", reward)
+        too_large = ~(np.abs(reward) <= LARGEST)
+        rule = f"reward must lie in -{LARGEST:g}..{LARGEST:g}"
+        _refuse_first(too_large, rule, reward)
         stuck = ~terminal & ~allowed.any(axis=1)
         _refuse_first(stuck, "allowed must leave every state an action", ~stuck)
-        if not 0 <= self.gamma < 1:
+        gamma = float(_array("gamma", self.gamma, np.float64, 0))
+        if not 0 <= gamma < 1:
             raise ValueError(f"gamma must satisfy 0 <= gamma < 1, got {self.gamma}")
+        object.__setattr__(self, "gamma", gamma)
         for name, array in (
             ("next_state", next_state),
             ("prob", prob),
@@ -117,26 +123,41 @@ def check_policy(policy: np.ndarray, mdp: MDP, name: str = "policy") -> np.ndarr
     Rows of terminal states are not read.  Raises ValueError where the shape is
     wrong, a row does not sum to 1, or an action is not allowed.
     """
+    if not isinstance(mdp, MDP):
+        kind = type(mdp).__name__
+        raise ValueError(f"mdp must be an MDP, as in tasks.mdp, got {kind}")
     policy = _array(name, policy, np.float64, 2, (mdp.n_states, mdp.n_actions))
-    _check_rows(np.where(mdp.terminal[:, None], 1 / mdp.n_actions, policy), name)
+    check_rows(np.where(mdp.terminal[:, None], 1 / mdp.n_actions, policy), name)
     forbidden = (policy > 0) & ~mdp.allowed & ~mdp.terminal[:, None]
     _refuse_first(forbidden, f"{name} must use allowed actions only", policy)
     return policy
 
 
+def numbers(name: str, value) -> np.ndarray:
+    """Return `value` as an array of real numbers, or refuse it by name."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different lengths
+        raise ValueError(f"{name} must be an array, got rows that differ") from None
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name} must hold numbers, got {array.dtype}")
+    return array
+
+
 def _array(name, value, dtype, ndim, shape=None) -> np.ndarray:
     """Return a copy of `value` of this type and shape, or refuse it by name."""
-    array = np.asarray(value)
+    array = numbers(name, value)
     if array.ndim != ndim or 0 in array.shape or (shape and array.shape != shape):
         wanted = shape or f"{ndim} axes, none of length 0"
         raise ValueError(f"{name} must have shape {wanted}, got {array.shape}")
-    converted = array.astype(dtype)
+    with np.errstate(invalid="ignore", over="ignore"):
+        converted = array.astype(dtype, order="C")
     if dtype is not np.float64 and not np.array_equal(converted, array):
         raise ValueError(f"{name} must hold {np.dtype(dtype).name}, got {array.dtype}")
     return converted
 
 
-def _check_rows(prob: np.ndarray, name: str = "prob") -> None:
+def check_rows(prob: np.ndarray, name: str = "prob") -> None:
     """Refuse the first entry below 0 or nan, and the first row not summing to 1."""
     _refuse_first(~(prob >= 0), f"{name} must not be negative or nan", prob)
     total = prob.sum(axis=-1)

@@ -8,7 +8,6 @@ Page 3 of the book teaches what the choices do.
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields
 from functools import lru_cache, partial
@@ -17,8 +16,9 @@ import numpy as np
 
 from .._paths import DATA
 from ..builders import BUILDERS, abstract_policies
+from ..learning.settings import Settings, check
 from ..maps import Map, read_map
-from ..navigation import NavigationTasks, navigation_tasks
+from ..navigation import NavigationTasks, check_options, navigation_tasks
 
 GUIDES = ("rand", *BUILDERS)
 
@@ -50,7 +50,7 @@ class Problem:
     >>> Problem(epsilon=1.5)
     Traceback (most recent call last):
         ...
-    ValueError: epsilon must lie in 0..1, got 1.5
+    ValueError: epsilon must be a number from 0 to 1, got 1.5
     """
 
     source: Map = field(default_factory=partial(read_map, "source"))
@@ -58,31 +58,18 @@ class Problem:
     reward: str = "goal"
     unavailable: str = "wait"
     success: float = 0.9
-    q0: float = 0.0
-    alpha: float = 0.1
-    epsilon: float = 0.1
-    gamma: float = 0.9
-    max_episode: int = 5_000
+    q0: float = Settings.q0
+    alpha: float = Settings.alpha
+    epsilon: float = Settings.epsilon
+    gamma: float = Settings.gamma
+    max_episode: int = Settings.max_episode
 
     def __post_init__(self):
-        for name, known in (
-            ("reward", ("goal", "cost")),
-            ("unavailable", ("wait", "masked")),
-        ):
-            if getattr(self, name) not in known:
-                raise ValueError(
-                    f"{name} must be one of {known}, got {getattr(self, name)!r}"
-                )
-        for name, rule, ok in (
-            ("success", "lie in 0..1, and not be 0", 0 < self.success <= 1),
-            ("q0", "be finite", math.isfinite(self.q0)),
-            ("alpha", "lie in 0..1, and not be 0", 0 < self.alpha <= 1),
-            ("epsilon", "lie in 0..1", 0 <= self.epsilon <= 1),
-            ("gamma", "lie in 0..1", 0 <= self.gamma <= 1),
-            ("max_episode", "be at least 1", self.max_episode >= 1),
-        ):
-            if not ok:
-                raise ValueError(f"{name} must {rule}, got {getattr(self, name)}")
+        check_options(
+            success=self.success, reward=self.reward, unavailable=self.unavailable
+        )
+        for name in ("q0", "alpha", "epsilon", "gamma", "max_episode"):
+            object.__setattr__(self, name, check(name, getattr(self, name)))
 
     def record(self) -> dict:
         """Return everything that makes this problem, for JSON."""

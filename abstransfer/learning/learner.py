@@ -18,8 +18,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from ..mdp import MDP
-from ._runs import RunState, Together, say_if_compiling, set_up
-from .settings import QLearningResult, Settings, Trace, whole
+from .settings import MOST_STEPS, QLearningResult, Settings, Trace, whole
 
 __all__ = ["Learner", "QLearningResult", "Trace", "q_learning", "q_learning_runs"]
 
@@ -30,16 +29,16 @@ def q_learning(
     *,
     rng,
     guide=None,
-    strategy="hard",
-    tau=0,
-    alpha=0.1,
-    epsilon=0.1,
-    gamma=0.9,
-    q0=0.0,
+    strategy=Settings.strategy,
+    tau=Settings.tau,
+    alpha=Settings.alpha,
+    epsilon=Settings.epsilon,
+    gamma=Settings.gamma,
+    q0=Settings.q0,
     start=None,
-    max_episode=5000,
-    window=500_000,
-    trace=0,
+    max_episode=Settings.max_episode,
+    window=Settings.window,
+    trace=Settings.trace,
     checkpoints=(),
 ) -> QLearningResult:
     """
@@ -64,7 +63,9 @@ def q_learning(
     gamma : float
         Discount, 0 <= gamma <= 1.
     q0 : float or ndarray of shape (S, A)
-        Values to start from.
+        Values to start from, within -1e290..1e290 as rewards.  A step adds at most
+        the largest reward r to the largest value: |Q| <= |q0| + 2^36 |r| < 1e301,
+        whatever alpha and gamma, and Q stays finite.
     start : ndarray of int
         States an episode starts in, all equally likely; by default, all states
         that are not terminal.
@@ -82,6 +83,7 @@ def q_learning(
     ------
     ValueError
         Naming the argument, what it must be and what it was, before any step.
+        Limits and defaults stand in ``learning.settings``.
 
     Examples
     --------
@@ -146,13 +148,16 @@ class Learner:
     def __init__(self, mdp: MDP, *, rngs: Iterable, **options):
         self.settings = Settings(mdp, **options)
         self.n_steps = 0  # that each run has taken, or still owes
-        setup, seeds = set_up(self.settings), list(rngs)
+        seeds = list(rngs) if np.iterable(rngs) else []
         if not seeds:
-            raise ValueError("rngs must hold at least one seed, got none")
-        threes = len(seeds) // 3 * 3
+            raise ValueError(f"rngs must hold at least one seed, got {rngs!r}")
+        from . import _runs  # not before the first run: it loads the compiler
+
+        _runs.say_if_compiling()
+        setup, threes = _runs.set_up(self.settings), len(seeds) // 3 * 3
         parts = [seeds[i : i + 3] for i in range(0, threes, 3)]
         parts += [[seed] for seed in seeds[threes:]]
-        self._parts = [Together(setup, part) for part in parts]
+        self._parts = [_runs.Together(setup, part) for part in parts]
 
     def advance(
         self, n_steps: int, *, on_progress: Callable[[int], None] | None = None
@@ -163,8 +168,7 @@ class Learner:
         `on_progress` is called now and then with the number of steps just taken,
         summed over the runs.  If it raises, ``advance(0)`` takes the steps owed.
         """
-        say_if_compiling()
-        self.n_steps += whole("n_steps", n_steps, 0)
+        self.n_steps += whole("n_steps", n_steps, 0, MOST_STEPS - self.n_steps)
         for part in self._parts:
             while part.n_steps < self.n_steps:
                 taken = part.advance(self.n_steps)
@@ -177,7 +181,7 @@ class Learner:
             self._result(part.n_steps, run) for part in self._parts for run in part.runs
         ]
 
-    def _result(self, n_steps: int, run: RunState) -> QLearningResult:
+    def _result(self, n_steps: int, run) -> QLearningResult:
         shape = self.settings.mdp.allowed.shape
         goals, cuts = np.array(run.counts, np.int64).reshape(-1, 2).T.copy()
         traced = min(n_steps, self.settings.trace)

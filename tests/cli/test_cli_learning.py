@@ -121,13 +121,22 @@ def test_tau_is_the_papers_shrunk_to_the_steps(capsys):
         (["learn", "--map", "nowhere"], "no map file 'nowhere'"),
         (["learn", "--source", "nowhere", "--guide", "nd"], "no map file 'nowhere'"),
         (["learn", "--tau", "5"], "--tau needs a --guide"),
-        (["learn", "--alpha", "2"], "alpha must lie in 0..1, and not be 0, got 2.0"),
-        (["learn", "--epsilon", "nan"], "epsilon must lie in 0..1, got nan"),
+        (
+            ["learn", "--alpha", "2"],
+            "alpha must be a number above 0 and at most 1, got 2.0",
+        ),
+        (
+            ["learn", "--epsilon", "nan"],
+            "epsilon must be a number from 0 to 1, got nan",
+        ),
         (["learn", "--steps", "0"], "--steps must be at least 1, got 0"),
         (["learn", "--window", "0"], "--window must be at least 1, got 0"),
         (["experiment", "--out", "x", "--runs", "0"], "n_runs must be at least 1"),
         (["experiment", "--out", "x", "--jobs", "0"], "n_workers must be at least 1"),
-        (["experiment", "--out", "x", "--gamma", "1.1"], "gamma must lie in 0..1"),
+        (
+            ["experiment", "--out", "x", "--gamma", "1.1"],
+            "gamma must be a number from 0 to 1",
+        ),
         (
             ["experiment", "--out", "x", "--tuned", "nowhere"],
             "nowhere: no results here",

@@ -136,7 +136,7 @@ REFUSED = {
     ),
     "endless reward": (
         spoilt("reward", 1, -np.inf),
-        "reward must be finite: at state 1 it was -inf",
+        "reward must lie in -1e+290..1e+290: at state 1 it was -inf",
     ),
     "no action left": (
         arguments(allowed=[[True, False], [False, False], [False, False]]),
