@@ -160,7 +160,8 @@ def _array(name, value, dtype, ndim, shape=None) -> np.ndarray:
 def check_rows(prob: np.ndarray, name: str = "prob") -> None:
     """Refuse the first entry below 0 or nan, and the first row not summing to 1."""
     _refuse_first(~(prob >= 0), f"{name} must not be negative or nan", prob)
-    total = prob.sum(axis=-1)
+    with np.errstate(over="ignore"):
+        total = prob.sum(axis=-1)
     _refuse_first(np.abs(total - 1) > 1e-9, f"{name} must sum to 1 in each row", total)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse.csgraph import breadth_first_order
 
 from ..learning import q_learning_runs
+from ..learning.settings import whole
 from ..mdp import MDP, check_policy
 from ..solvers import evaluate_policy, optimal_values, transition_matrix
 
@@ -44,6 +45,7 @@ def arrival(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> Arrival:
     ([0.875, 1.0], [1.75, 0.0])
     """
     moves = transition_matrix(mdp, check_policy(policy, mdp))
+    n_steps = whole("n_steps", n_steps)
     on_the_way = np.where(mdp.terminal, 0.0, 1.0)
     steps = np.zeros(mdp.n_states)
     for _ in range(n_steps):
@@ -104,6 +106,7 @@ def notes_after(
     >>> notes_after(mdp, np.ones((3, 1)), 100, rngs=[0]).informed
     1.0
     """
+    guide = check_policy(guide, mdp, "guide")
     if mdp.reward.min() < 0:
         raise ValueError(f"reward must not be negative, got {mdp.reward.min()}")
     rngs, way = list(rngs), ~mdp.terminal

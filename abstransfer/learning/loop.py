@@ -76,12 +76,12 @@ def pick(q, s, floor, field):
         if q[s, a] >= floor:
             count += 1
     skip = (field * count) >> 16
-    a = 0
-    while q[s, a] < floor or skip > 0:
+    for a in range(q.shape[1]):
         if q[s, a] >= floor:
+            if skip == 0:
+                return a
             skip -= 1
-        a += 1
-    return a
+    return 0  # where no value is a number
 
 
 @inlined

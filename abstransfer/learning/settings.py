@@ -211,7 +211,7 @@ def _start(mdp: MDP, start) -> np.ndarray:
         if not len(start):
             raise ValueError("mdp must have a state that is not terminal")
         return start
-    states = np.asarray(start)
+    states = numbers("start", start)
     if states.ndim != 1 or not states.size or states.dtype.kind not in "iu":
         raise ValueError(f"start must be a list of states, got {start!r}")
     outside = (states < 0) | (states >= mdp.n_states)

@@ -14,7 +14,8 @@ import numpy as np
 
 from ..experiments.plan import SEED
 from ..learning import q_learning_runs
-from ..learning.settings import whole
+from ..learning.settings import exact_seed, whole
+from ..mdp import check_rows
 from ..navigation import NavigationTasks
 from ..policies import restrict_policy
 
@@ -63,13 +64,13 @@ def race(
     >>> race(tasks, go, steps=100, tau=100, n_runs=1).goals["eager"] > 80
     array([ True])
     """
+    if not isinstance(tasks, NavigationTasks):
+        raise ValueError(f"tasks must be NavigationTasks, got {type(tasks).__name__}")
     for name in {"none", "optimal"} & set(guides):
         raise ValueError(f"no guide may be called {name!r}: that robot has none")
-    if n_runs < 1:
-        raise ValueError(f"n_runs must be at least 1, got {n_runs}")
-    steps, tau = whole("steps", steps, 1), whole("tau", tau, 0)
-    shape = tasks.possible.shape
-    goals = {}
+    steps, tau = whole("steps", steps, 1), whole("tau", tau)
+    n_runs, seed = whole("n_runs", n_runs, 1), exact_seed("seed", seed)
+    shape, goals = tasks.possible.shape, {}
     for name, guide in {"none": None, **guides}.items():
         options = {}
         if guide is not None:
@@ -77,6 +78,7 @@ def race(
                 raise ValueError(
                     f"guide {name!r} must have shape {shape}, got {np.shape(guide)}"
                 )
+            check_rows(guide, f"guide {name!r}")
             policy = restrict_policy(guide[tasks.rho], tasks.mdp.allowed)
             options = {"guide": policy, "tau": tau, "strategy": strategy}
         seeds = [np.random.SeedSequence(seed, spawn_key=(0, i)) for i in range(n_runs)]

@@ -1,9 +1,14 @@
 """Learning: values that can be checked on paper, chances, counts and refusals."""
 
+import inspect
+import json
 import subprocess
 import sys
+from dataclasses import fields, replace
+from decimal import Decimal
+from fractions import Fraction
 from hashlib import sha256
-from math import inf, nan
+from math import inf, nan, nextafter
 
 import numpy as np
 import pytest
@@ -18,6 +23,8 @@ from abstransfer import (
     uniform_policy,
 )
 from abstransfer.learning import Learner, q_learning, q_learning_runs
+from abstransfer.learning.settings import LIMITS, check
+from abstransfer.mdp import LARGEST
 
 LEFT, RIGHT = 0, 1
 GUIDED, EXPLORED, GREEDY = 0, 1, 2
@@ -337,6 +344,115 @@ def test_a_wrong_setting_is_refused_by_its_name(name, wrong):
     options = {"n_steps": 10, "guide": np.full((5, 2), 0.5), name: wrong}
     with pytest.raises(ValueError, match=f"^{name} must"):
         q_learning(corridor(), rng=0, **options)
+
+
+ODD = [
+    *(
+        None,
+        True,
+        -1,
+        0,
+        1,
+        0.5,
+        1e300,
+        -1e300,
+        inf,
+        nan,
+        10**400,
+        2**36 + 1,
+        "x",
+        b"1",
+    ),
+    *(
+        [],
+        [1],
+        [[1, 2], [3]],
+        {},
+        {"a": 1},
+        {1},
+        object(),
+        1j,
+        Fraction(1, 2),
+        slice(3),
+    ),
+    *(Decimal("0.5"), np.float32(0.5), np.int8(1), np.datetime64("2020"), range(3)),
+    *(np.array(3), np.full((2, 2), 0.5), np.full((2, 2), 1e308), np.array(["a"])),
+    *(np.zeros((2, 2), object), np.array([2**63], np.uint64), np.ones((2, 2), bool)),
+]
+WAYS = MDP([[[1, 0], [0, 1]]] * 2, np.full((2, 2, 2), 0.5), [0, 1], [False, True], 0.9)
+
+
+def refusal(function, *args, **options):
+    """Return the text of the ValueError that a call raises, or None."""
+    try:
+        function(*args, **options)
+    except ValueError as error:
+        return str(error)
+    return None
+
+
+@pytest.mark.parametrize("name", [*inspect.signature(q_learning).parameters])
+def test_an_odd_argument_is_taken_or_refused_by_its_name(name):
+    """Nothing else is raised, and no process ends."""
+    given = {"mdp": WAYS, "n_steps": 20, "rng": 0}
+    said = [refusal(q_learning, **{**given, name: value}) for value in ODD]
+    refused = [text for text in said if text]
+
+    assert len(refused) > len(ODD) / 3
+    assert all(text.startswith(f"{name} must ") for text in refused)
+
+
+@pytest.mark.parametrize("name", [f.name for f in fields(MDP)])
+def test_an_odd_array_is_taken_or_refused_by_its_name(name):
+    said = [refusal(replace, WAYS, **{name: value}) for value in ODD]
+    refused = [text for text in said if text]
+
+    assert len(refused) > len(ODD) / 2
+    assert all(text.startswith(f"{name} must ") for text in refused)
+
+
+@pytest.mark.parametrize("trace", [0, 2000], ids=["fast", "plain"])
+def test_the_largest_rewards_leave_finite_values(trace):
+    """What ends a run of 1e308, without a word, at a reward that is taken."""
+    cost = np.array([-LARGEST, -LARGEST, LARGEST, 0])
+    mdp = MDP([[[0]], [[2]], [[1]], [[3]]], np.ones((4, 1, 1)), cost, cost == 0, 0.9)
+    for q0 in (-LARGEST, LARGEST):
+        options = {"alpha": 1, "gamma": 1, "q0": q0, "rng": 0, "trace": trace}
+        assert np.isfinite(q_learning(mdp, 2000, **options).q).all()
+
+
+def test_a_reward_that_could_overflow_is_refused():
+    with pytest.raises(ValueError, match="reward must lie in .* state 0 it was -1e"):
+        replace(WAYS, reward=[-1e308, 0])
+
+
+def test_no_run_is_longer_than_steps_can_be_counted_exactly():
+    learner = Learner(WAYS, rngs=[0])
+    learner.advance(10)
+    with pytest.raises(ValueError, match=f"n_steps must .* to {2**36 - 10:,}, got"):
+        learner.advance(2**36)
+
+
+def test_a_signature_shows_the_defaults_that_settings_keep():
+    shown = inspect.signature(q_learning).parameters
+
+    assert {name: shown[name].default for name in LIMITS} == {
+        name: known["default"] for name, known in LIMITS.items()
+    }
+    assert json.loads(json.dumps(LIMITS)).keys() == LIMITS.keys()
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_a_default_lies_within_its_limits_and_they_are_the_ones_checked(name):
+    default, limits = LIMITS[name]["default"], LIMITS[name]["limits"]
+
+    assert check(name, default) == default
+    for value in [limits[end] for end in ("least", "most") if end in limits]:
+        outside = nextafter(value, inf if value == limits["most"] else -inf)
+        with pytest.raises(ValueError, match=f"^{name} must be a"):
+            check(name, outside)
+        if not (limits.get("above") and value == limits["least"]):
+            assert check(name, value) == value
 
 
 def test_a_guide_that_takes_a_masked_action_is_refused():

@@ -3,13 +3,18 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strategies import mdps
 
 from abstransfer import MDP, navigation_tasks, read_map
 from abstransfer.learning import Learner, q_learning_runs
+from abstransfer.learning._fast import advance_three
 from abstransfer.learning._rng import fill, next_word, seed_state
 from abstransfer.learning._simd import count_below, put
 from abstransfer.learning._tables import (
@@ -20,8 +25,10 @@ from abstransfer.learning._tables import (
     pack,
     pack_world,
 )
+from abstransfer.learning.loop import learn
 
 ROOT = Path(__file__).parents[2]
+TESTS = [str(ROOT / "tests"), str(ROOT / "tests" / "learning")]
 PHASES = {
     "alone": {},
     "hard": {"strategy": "hard", "tau": 1200},
@@ -104,7 +111,14 @@ def test_a_seed_can_be_an_int_a_seed_sequence_or_a_generator():
     assert len(np.unique([seed_state(i) for i in range(100)])) == 800
 
 
-@pytest.mark.parametrize("wrong", [-1, 1.5, "7", None, True])
+@given(st.integers(0, 2**200))
+def test_seeds_are_exact_whatever_their_size(seed):
+    assert seed_state(seed).tolist() != seed_state(seed + 1).tolist()
+    if seed < 2**64:
+        assert seed_state(np.uint64(seed)).tolist() == seed_state(seed).tolist()
+
+
+@pytest.mark.parametrize("wrong", [-1, 1.5, 7.0, np.float64(7), "7", None, True])
 def test_a_wrong_seed_is_refused(wrong):
     with pytest.raises(ValueError, match=r"rng must be an int >= 0, .* got"):
         seed_state(wrong)
@@ -289,9 +303,48 @@ def test_many_rows_need_a_larger_type_and_give_the_same():
         assert_same(one, other)
 
 
+LAYOUTS = {
+    "as columns": np.asfortranarray,
+    "backwards": lambda x: x[::-1].copy()[::-1],
+    "every other": lambda x: np.repeat(x, 2, axis=-1)[..., ::2],
+    "read-only": lambda x: np.frombuffer(x.tobytes(), x.dtype).reshape(x.shape),
+    "other bytes": lambda x: x.astype(x.dtype.newbyteorder()),
+    "unaligned": lambda x: np.frombuffer(b"-" + x.tobytes(), x.dtype, offset=1).reshape(
+        x.shape
+    ),
+    "a list": lambda x: x.tolist(),
+}
+
+
+@given(mdps(max_states=9, max_actions=8, masks=True), st.data())
+@settings(deadline=None, max_examples=60)
+def test_arrays_of_any_layout_give_the_same_run(mdp, data):
+    """And none of them is compiled for: what the loops read is always the same."""
+
+    def laid_out(array):
+        return LAYOUTS[data.draw(st.sampled_from(sorted(LAYOUTS)))](np.array(array))
+
+    guide, start = random_guide(mdp), np.flatnonzero(~mdp.terminal)
+    guide[mdp.terminal] = 1 / mdp.n_actions
+    q0 = np.random.default_rng(0).normal(size=mdp.allowed.shape)
+    options = {"rngs": [0, 1, 2], "strategy": "soft", "tau": 150, "trace": 50}
+    if mdp.terminal.all():
+        return
+    expected = q_learning_runs(mdp, 200, guide=guide, q0=q0, start=start, **options)
+    compiled = [len(f.signatures) for f in (learn, advance_three)]
+    names = "next_state", "prob", "reward", "terminal", "allowed"
+    other = replace(mdp, **{name: laid_out(getattr(mdp, name)) for name in names})
+    guide, q0, start = laid_out(guide), laid_out(q0), laid_out(start)
+    found = q_learning_runs(other, 200, guide=guide, q0=q0, start=start, **options)
+
+    assert compiled == [len(f.signatures) for f in (learn, advance_three)]
+    for one, same in zip(found, expected, strict=True):
+        assert_same(one, same)
+
+
 DIGEST = """
 import hashlib, sys
-sys.path.insert(0, {tests!r})
+sys.path[:0] = {tests}
 from test_loops import options, q_learning_runs, random_mdp
 for phase in {phases}:
     for trace in {traces}:
@@ -307,8 +360,7 @@ for phase in {phases}:
 
 def digest(variables, phases=tuple(PHASES), traces=(0, 1500), n_runs=4):
     """Return what a fresh Python learns, as a line of hex digits for each run."""
-    tests = str(ROOT / "tests" / "learning")
-    code = DIGEST.format(tests=tests, phases=phases, traces=traces, n_runs=n_runs)
+    code = DIGEST.format(tests=TESTS, phases=phases, traces=traces, n_runs=n_runs)
     return subprocess.run(
         [sys.executable, "-W", "error", "-c", code],
         env={**os.environ, **variables},
@@ -327,8 +379,46 @@ def test_compiled_and_plain_python_agree_to_the_bit():
     assert digest({"NUMBA_DISABLE_JIT": "1"}) == compiled
 
 
+POISONED = """
+import itertools, sys
+import numpy as np
+sys.path[:0] = {tests}
+from test_loops import options, random_mdp
+from abstransfer.learning._fast import refresh
+from abstransfer.learning._runs import Together, set_up
+from abstransfer.learning.settings import Settings
+np.seterr(all="ignore")
+mdp = random_mdp(3)
+setup = set_up(Settings(mdp, **options(mdp, "soft")))
+odd = np.nan, np.inf, -np.inf, np.finfo(float).max, np.finfo(float).min
+for plainly, values in itertools.product((True, False), itertools.combinations(odd, 2)):
+    together = Together(setup, [0, 1, 2])
+    for run in together.runs:
+        run.q[:] = np.random.default_rng(0).choice(values, run.q.shape)
+        refresh(mdp.terminal, setup.tables, setup.rule, run.fast)
+    (together._plainly if plainly else together._fast)(1, 300)
+print("whole")
+"""
+
+
+def test_no_value_makes_a_loop_leave_its_row():
+    """Not a number, infinite: plain Python refuses an index that arrays have not."""
+    code = POISONED.format(tests=TESTS)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+
+    assert (done.stdout, done.stderr) == ("whole\n", "")
+
+
 def test_a_processor_without_wide_registers_gives_the_same_to_the_bit(tmp_path):
+    """And no index leaves its array: all are checked, since it is compiled anew."""
     old = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
+    old["NUMBA_BOUNDSCHECK"] = "1"
     old["NUMBA_CACHE_DIR"] = str(tmp_path)
     few = {"phases": ("soft",), "traces": (0,), "n_runs": 3}
 
