@@ -6,7 +6,8 @@ data.  :func:`figure` brings the two together for a notebook::
 
     figure(plot_map, read_map("source"))
 
-Nothing here learns, solves or shows; matplotlib is imported by nothing else.
+Nothing here learns, solves or shows.  Only this room imports matplotlib, and only
+where something is drawn.
 """
 
 from __future__ import annotations
@@ -15,10 +16,16 @@ from collections.abc import Callable
 from inspect import signature
 
 from .buildings import describe_map, describe_values, plot_map, plot_values
-from .describe_runs import describe_boxes, describe_curves, describe_tau
 from .ladder import describe_ladder, plot_ladder
 from .picture import Picture, draw_picture
-from .runs import plot_boxes, plot_curves, plot_tau
+from .runs import (
+    describe_boxes,
+    describe_curves,
+    describe_tau,
+    plot_boxes,
+    plot_curves,
+    plot_tau,
+)
 from .style import PALETTE, WIDTH, ArmStyle, arm_style
 from .tasks import (
     describe_features,

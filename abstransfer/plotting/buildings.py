@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..maps import CORRIDOR, Map
-from .cells import cell_array, count, draw_edges, paint_cells, place, print_in
-from .style import COLOR, WIDTH, new_axes, number
+from ..maps import CORRIDOR, DOOR, WALLS, Map
+from .style import COLOR, SMALL, WIDTH, count, new_axes, number
 
 N_SHADES = 40
 BLACK_ON = 19  # the first shade on which black reads better than white
+DOOR_SIDE = 0.18  # of a cell's side, wall on either side of a door
 
 
 def plot_map(map_: Map, ax=None, *, goal: int | None = None, fill: bool = True):
@@ -152,3 +152,127 @@ def describe_values(map_: Map, v: np.ndarray, *, goal: int | None = None) -> str
             f"below {number(np.nanmedian(v), digits)}."
         )
     return f"Building of {height} by {width} cells{task}: {found}{blank}"
+
+
+def place(map_: Map, cell: int, what: str) -> str:
+    """Return where a cell is, rows and columns counted from 1."""
+    row, column = divmod(int(cell), map_.shape[1])
+    return f"{what} row {row + 1}, column {column + 1}"
+
+
+def cell_array(x, map_: Map, name: str) -> np.ndarray:
+    """Return x as floats (C,), at least one of them finite, or refuse it."""
+    x = np.asarray(x, dtype=float)
+    if x.shape != (map_.n_cells,) or not np.isfinite(x).any():
+        raise ValueError(
+            f"{name} must hold numbers in shape ({map_.n_cells},), got shape {x.shape}"
+        )
+    return x
+
+
+def strips(map_: Map, chosen: np.ndarray) -> tuple[np.ndarray, ...]:
+    """
+    Return row, first column and end of the runs of chosen cells, each (n,).
+
+    >>> from abstransfer.maps import parse_map
+    >>> strips(parse_map("+---+\\n|.d*|\\n+---+"), np.array([False, True]))
+    (array([0]), array([1]), array([2]))
+    """
+    grid = np.pad(chosen.reshape(map_.shape), ((0, 0), (1, 1))).astype(int)
+    row, start = np.nonzero(np.diff(grid, axis=1) == 1)
+    return row, start, np.nonzero(np.diff(grid, axis=1) == -1)[1]
+
+
+def edge_lines(map_: Map, kind: str) -> np.ndarray:
+    """
+    Return where walls, or doors, run: the (x, y) of two ends each, (n, 2, 2).
+
+    Walls go on behind doors; a door leaves a piece of wall at either side.
+    """
+    ends = [
+        line if flat else line[:, ::-1]
+        for flat, chars in (
+            (True, map_.chars[::2, 1::2]),
+            (False, map_.chars[1::2, ::2].T),
+        )
+        for line in _segments(chars, kind)
+    ]
+    return np.array(ends).reshape(-1, 2, 2)
+
+
+def paint_cells(
+    ax,
+    map_: Map,
+    chosen: np.ndarray,
+    color,
+    hatch: str | None = None,
+    linewidth: float = 0,
+):
+    """Fill the chosen cells, (C,) bool, runs of a row in one piece."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    row, start, end = strips(map_, chosen)
+    if not len(row):
+        return
+    corners = np.array(
+        [[start, row], [end, row], [end, row + 1], [start, row + 1], [start, row]]
+    )
+    codes = [Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY]
+    path = Path(corners.transpose(2, 0, 1).reshape(-1, 2), codes * len(row))
+    ax.add_patch(
+        PathPatch(path, facecolor=color, edgecolor=color, linewidth=linewidth, zorder=0)
+    )
+    if hatch:
+        lines = {"facecolor": "none", "edgecolor": COLOR["faint"], "hatch": hatch}
+        ax.add_patch(PathPatch(path, linewidth=0, zorder=0, **lines))
+
+
+def draw_edges(ax, map_: Map, thick: float):
+    """Draw walls as lines, and doors as hollow bars in a gap of the wall."""
+    walls, doors = (_polyline(edge_lines(map_, kind)) for kind in ("wall", "door"))
+    ax.plot(
+        *walls,
+        color=COLOR["ink"],
+        linewidth=thick,
+        solid_capstyle="projecting",
+        zorder=3,
+    )
+    for color, width in (("door", 2.4 * thick), ("ground", 1.2 * thick)):
+        ax.plot(
+            *doors, color=COLOR[color], linewidth=width, solid_capstyle="butt", zorder=4
+        )
+
+
+def print_in(ax, map_: Map, cell: int, text: str, color: str):
+    """Print a short text in the middle of a cell."""
+    row, column = divmod(int(cell), map_.shape[1])
+    ax.text(
+        column + 0.5,
+        row + 0.52,
+        text,
+        color=color,
+        fontsize=SMALL - 1,
+        ha="center",
+        va="center",
+        zorder=7,
+    )
+
+
+def _segments(chars: np.ndarray, kind: str):
+    """Yield the (x, y) ends, (2, 2), of each wall or door along rows of edges."""
+    for y, line in enumerate(chars):
+        if kind == "door":
+            for x in np.flatnonzero(line == DOOR):
+                yield np.array([[x + DOOR_SIDE, y], [x + 1 - DOOR_SIDE, y]])
+        else:
+            solid = np.pad(np.isin(line, (*WALLS, DOOR)), 1).astype(int)
+            change = np.flatnonzero(np.diff(solid))
+            for start, end in change.reshape(-1, 2):
+                yield np.array([[start, y], [end, y]], dtype=float)
+
+
+def _polyline(segments: np.ndarray):
+    """Return x and y of segments (n, 2, 2) as one line with gaps."""
+    gap = np.full((len(segments), 1, 2), np.nan)
+    return np.concatenate([segments, gap], axis=1).reshape(-1, 2).T

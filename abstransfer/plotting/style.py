@@ -12,7 +12,6 @@ from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import isotonic_regression
 
 PALETTE = json.loads((files("abstransfer") / "palette.json").read_text("utf-8"))
 COLOR = {name: shades["light"] for name, shades in PALETTE["building"].items()}
@@ -105,6 +104,16 @@ def number(x: float, digits: int = 1) -> str:
     return text.replace("-", "\u2212")
 
 
+def count(n: int, noun: str) -> str:
+    """
+    Return how many there are.
+
+    >>> count(1, "door"), count(2, "door")
+    ('1 door', '2 doors')
+    """
+    return f"{n} {noun}{'' if n == 1 else 's'}"
+
+
 def spread(y: np.ndarray, gap: float) -> np.ndarray:
     """
     Return places (n,) near y (n,), in the same order and at least gap apart.
@@ -114,6 +123,8 @@ def spread(y: np.ndarray, gap: float) -> np.ndarray:
     >>> spread(np.array([0.0, 1.0, 9.0]), 2.0)
     array([-0.5,  1.5,  9. ])
     """
+    from scipy.optimize import isotonic_regression  # slow to load
+
     y = np.asarray(y, dtype=float)
     if not y.size:
         return y

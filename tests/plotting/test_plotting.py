@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from support import ROOT
 
 from abstransfer import plotting
 from abstransfer.driving import PAPER, ROWS
@@ -17,7 +18,7 @@ from abstransfer.maps import parse_map, read_map
 from abstransfer.navigation import navigation_tasks
 from abstransfer.plotting.buildings import BLACK_ON, N_SHADES, _shades
 from abstransfer.plotting.style import MARKS, number, spread
-from abstransfer.plotting.task_cells import abstract_ranks, walking_distance
+from abstransfer.plotting.tasks import abstract_ranks, walking_distance
 
 ALT = "A line that rises from zero to one, to see how it is drawn."
 TWO_ROOMS = parse_map("+-+-----+\n|*d. . .|\n+-+---+d+\n|* *  d.|\n+-----+-+")
@@ -148,6 +149,23 @@ def test_a_number_in_a_cell_reads_well_on_every_shade():
 
 
 # --- pictures ----------------------------------------------------------------
+
+
+def test_matplotlib_is_loaded_where_something_is_drawn_and_not_before():
+    code = "import sys, abstransfer.plotting; sys.exit('matplotlib' in sys.modules)"
+
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_only_the_room_of_pictures_names_matplotlib():
+    package = ROOT / "abstransfer"
+    importing = {
+        path.parent.relative_to(package).as_posix()
+        for path in package.rglob("*.py")
+        if re.search(r"^\s*(import|from) matplotlib", path.read_text("utf-8"), re.M)
+    }
+
+    assert importing == {"plotting"}
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -12,8 +12,7 @@ from ...builders import count_votes
 from ...driving import PAPER
 from ...maps import Map
 from ...navigation import navigation_tasks
-from ...plotting.cells import count
-from ...plotting.style import number
+from ...plotting.style import count, number
 from ...policies import break_ties
 from ..base import MapTrait, Scene, Still
 from ..dial.widget import BETAS, LAST, STEP, _driving, _policy

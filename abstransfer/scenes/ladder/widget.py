@@ -10,8 +10,7 @@ from ...builders import BUILDERS
 from ...driving import PAPER, ROWS, table1
 from ...maps import Map, read_map
 from ...navigation import navigation_tasks
-from ...plotting.cells import count
-from ...plotting.style import arm_style, number
+from ...plotting.style import arm_style, count, number
 from ..base import MapTrait, Still
 from ..parts.drawn import DrawnScene
 from ..parts.stills import building_svg

@@ -11,8 +11,7 @@ from ...learning import Learner, loop, q_learning
 from ...learning._runs import RunState, set_up
 from ...learning.settings import Settings
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.cells import count
-from ...plotting.style import number
+from ...plotting.style import count, number
 from ..base import MapTrait, Scene, Still
 from ..parts.stills import building_svg
 

@@ -7,8 +7,8 @@ import traitlets
 
 from ...abstraction import FEATURES, LABELS
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.cells import count
-from ...plotting.task_cells import abstract_ranks
+from ...plotting.style import count
+from ...plotting.tasks import abstract_ranks
 from ..base import MapTrait, Scene, Still
 from ..parts.counts import Counts, count_states, mask_of
 from ..parts.stills import building_svg

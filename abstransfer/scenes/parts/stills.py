@@ -14,7 +14,7 @@ from html import escape
 import numpy as np
 
 from ...maps import CORRIDOR, DOOR, OPEN, Map
-from ...plotting.cells import DOOR_SIDE
+from ...plotting.buildings import DOOR_SIDE
 from ...plotting.style import COLOR
 from ..files import EXTRA
 

@@ -8,8 +8,7 @@ import traitlets
 
 from ...abstraction import FEATURES
 from ...builders import BUILDERS
-from ...plotting.cells import count
-from ...plotting.style import number
+from ...plotting.style import count, number
 from ...project.project_card import card_text
 from ...project.racing import Race
 from ...project.setup import ADVICE, GUIDES, Setup, drives, run

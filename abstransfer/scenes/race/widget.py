@@ -7,7 +7,7 @@ import traitlets
 from ...experiments.arms import ARMS, PAPER_STEPS, Arm
 from ...experiments.problem import target_tasks
 from ...learning import q_learning
-from ...plotting.cells import place
+from ...plotting.buildings import place
 from ..base import Still
 from ..parts.curves import curves_svg
 from ..parts.runs import NAMES, PolicyTrait, RunScene, scaled

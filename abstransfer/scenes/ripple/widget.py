@@ -10,8 +10,7 @@ import traitlets
 
 from ...maps import Map
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.cells import count
-from ...plotting.style import number
+from ...plotting.style import count, number
 from ...solvers import optimal_actions, optimal_values, value_iteration
 from ..base import MapTrait, Scene, Still
 from ..parts.stills import building_svg

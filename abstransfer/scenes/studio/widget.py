@@ -8,8 +8,7 @@ from ...builders import BUILDERS, abstract_policies
 from ...driving import PAPER, ROWS, column
 from ...maps import Map, read_map
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.cells import count
-from ...plotting.style import arm_style, number
+from ...plotting.style import arm_style, count, number
 from ...solvers import evaluate_policy, optimal_values
 from ..base import MapTrait, Still
 from ..parts.drawn import DrawnScene, read_drawing
