@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
+import difflib
+import re
 import textwrap
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, field
+from functools import partial
 
-from ._judge import agree, counterexample, outcomes
-from ._model import Exercise, exercises_of, page_of
-from ._read import Unreadable
+from ._functions import judge_function, must_be_callable, outcomes, solution_of
+from ._model import Exercise, Verdict, all_exercises, exercises_of, page_of
+from ._read import SIGNS, Unreadable, short
+from ._run import Heard, run
+from ._values import judge_value, readings
 
 NOT_GIVEN = object()
-_times_tried: dict[str, int] = {}  # by exercise, since Python was started
+
+
+@dataclass
+class Tries:
+    """What a reader has seen of an exercise."""
+
+    hints: int = 0
+    mistakes: set[int] = field(default_factory=set)
+
+
+_tries: dict[str, Tries] = {}  # by exercise, since Python was started
 
 
 @dataclass(frozen=True)
@@ -19,7 +33,7 @@ class Reply:
     """What is said to an answer; true if the answer is right."""
 
     key: str
-    verdict: str  # "right", "not yet", "hint", "no answer yet" or "not checked"
+    verdict: str  # see check
     text: str
 
     def __bool__(self) -> bool:
@@ -46,8 +60,24 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
     Returns
     -------
     Reply
-        It prints itself, and is true if the answer is right.  A usual wrong
-        answer is named; another one gets the next hint.  Nothing is raised.
+        It prints itself, and is true if the answer is right.  Its `verdict` is
+        "right", "nearly" (right, but rounded too far), "not yet", "hint", "no answer
+        yet" (it cannot be judged) or "not checked" (there is no such exercise).  A
+        usual wrong answer is named; another one gets the next hint.
+
+    Raises
+    ------
+    ValueError
+        If `key` is no text.
+    KeyboardInterrupt
+        If the reader interrupts, so that no further cell runs.
+
+    Notes
+    -----
+    Whatever an answer does, it is told in words, and nothing of it stays: what it
+    prints is told shortly; numpy's and Python's luck, print options, warnings, the
+    environment, the folder and the arguments are as they were.  After ten seconds an
+    answer is stopped; a single call into compiled code cannot be stopped.
 
     Examples
     --------
@@ -56,59 +86,74 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
     >>> bool(check("ex-1-2", 99))
     False
     """
-    exercise = exercises_of(page_of(key) or 0).get(key) if page_of(key) else None
+    if not isinstance(key, str):
+        raise ValueError(
+            'key must be the id of an exercise, a text such as "ex-3-1"; '
+            f"it was of type {type(key).__name__}"
+        )
+    exercise = exercises_of(page_of(key) or 0).get(key)
     if exercise is None:
-        return Reply(str(key), "not checked", _unknown(page_of(key)))
+        return Reply(short(key, 40), "not checked", _unknown(key))
     if answer is NOT_GIVEN:
         return Reply(key, "hint", _next_hint(exercise))
     try:
-        outcome = outcomes(exercise, answer)
+        verdict = _judge(exercise, answer)
     except Unreadable as reason:
-        return Reply(key, "no answer yet", f"{reason}.".replace("?.", "?"))
-    right = _of_solution(key)
-    if agree(exercise, outcome, right):
-        n = len(right)
-        return Reply(key, "right", f"It agrees on all {n} cases." if n > 1 else "")
-    known = [
-        agree(exercise, outcome, _of_wrong(key, i)) for i in range(len(exercise.wrong))
-    ]
-    if any(known):
-        wrong = exercise.wrong[known.index(True)]
-        named = f"This looks like: *{wrong.name}*. {wrong.hint}"
-        again = key in _times_tried
-        _times_tried.setdefault(key, 0)
-        return Reply(
-            key, "not yet", f"{named} {_next_hint(exercise)}" if again else named
-        )
-    words = _next_hint(exercise)
-    if exercise.cases:
-        words = f"{words} {counterexample(exercise, outcome, right)}".strip()
-    return Reply(key, "not yet", words)
+        words = f"{reason}.".replace("?.", "?")
+        return Reply(key, "no answer yet", words + _told(reason.printed))
+    return _reply(exercise, verdict)
 
 
-@cache
-def _of_solution(key: str) -> list:
-    exercise = exercises_of(page_of(key))[key]
-    return outcomes(exercise, exercise.solution)
+def _judge(exercise: Exercise, answer) -> Verdict:
+    """Let the answer show what it comes to, under guard; then compare."""
+    if exercise.cases is None:
+        return judge_value(exercise, run(lambda heard: readings(exercise, answer)))
+    solution_of(exercise)  # first, so that it takes none of the answer's time
+    return judge_function(exercise, run(partial(_tried, exercise, answer)))
 
 
-@cache
-def _of_wrong(key: str, i: int) -> list | None:
-    exercise = exercises_of(page_of(key))[key]
-    return outcomes(exercise, exercise.wrong[i].answer)
+def _tried(exercise: Exercise, answer, heard: Heard) -> list:
+    must_be_callable(exercise, answer)
+    return outcomes(exercise, answer, heard)
+
+
+def _reply(exercise: Exercise, verdict: Verdict) -> Reply:
+    name, words = verdict.name, verdict.text
+    if name == "not yet":
+        words = f"{_next_hint(exercise)} {words}"
+    elif name == "mistake":
+        name, wrong = "not yet", exercise.wrong[verdict.mistake]
+        words = f"This looks like: *{wrong.name}*. {wrong.hint}"
+        tries = _tries.setdefault(exercise.key, Tries())
+        if verdict.mistake in tries.mistakes:
+            words = f"{words} {_next_hint(exercise)}"
+        tries.mistakes.add(verdict.mistake)
+    return Reply(exercise.key, name, (words + _told(verdict.printed)).strip())
+
+
+def _told(printed: str) -> str:
+    return f" It printed: `{short(printed)}`" if printed.strip() else ""
 
 
 def _next_hint(exercise: Exercise) -> str:
-    tried = min(_times_tried.get(exercise.key, 0) + 1, len(exercise.hints))
-    _times_tried[exercise.key] = tried
-    return f"Hint {tried} of {len(exercise.hints)}: {exercise.hints[tried - 1]}"
+    tries = _tries.setdefault(exercise.key, Tries())
+    tries.hints = min(tries.hints + 1, len(exercise.hints))
+    hint = exercise.hints[tries.hints - 1]
+    return f"Hint {tries.hints} of {len(exercise.hints)}: {hint}"
 
 
-def _unknown(page: int | None) -> str:
-    known = ", ".join(exercises_of(page)) if page else ""
-    if not known:
-        return "There is no such exercise; `python -m abstransfer.exercises` lists all."
-    return (
-        "No answer is stored under this name. An open exercise has no check: compare "
-        f"with its solution, or with a neighbor. Checked on this page: {known}."
-    )
+def _unknown(key: str) -> str:
+    on_page = ", ".join(exercises_of(page_of(key) or 0))
+    if on_page:
+        return (
+            "No answer is stored under this name. An open exercise has no check: "
+            "compare with its solution, or with a neighbor. Checked on this page: "
+            f"{on_page}."
+        )
+    words = "There is no such exercise"
+    meant = re.sub(r"[\s._-]+", "-", key[:40].strip().translate(SIGNS).lower())
+    known = [exercise.key for exercise in all_exercises()]
+    nearest = difflib.get_close_matches(meant, known, n=1)
+    if nearest:
+        words += f'. Did you mean "{nearest[0]}"?'
+    return f"{words}; `python -m abstransfer.exercises` lists all.".replace("?;", "? ")

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ._read import numbers
 
 
@@ -21,12 +23,21 @@ class Wrong(NamedTuple):
     hint: str
 
 
+class Verdict(NamedTuple):
+    """What an answer is: "right", "nearly", "mistake" or "not yet"."""
+
+    name: str
+    text: str = ""
+    mistake: int | None = None  # its place in `Exercise.wrong`
+    printed: str = ""
+
+
 def call(function, *arguments):
     """Return what a function returns: the usual way to try one."""
     return function(*arguments)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Exercise:
     """An exercise as data; :func:`value` and :func:`function` make one."""
 
@@ -36,10 +47,17 @@ class Exercise:
     hints: tuple[str, str, str]  # general, closer, nearly the solution
     wrong: tuple[Wrong, ...]
     same: tuple = ()  # the solution in other forms; used by the tests
-    cases: Callable | None = None  # Generator -> arguments to try; None: a value
-    probe: Callable = call  # function, *arguments -> what is compared
     read: Callable = field(default=numbers)  # answer -> what can be compared
     tolerance: float = 1e-6
+    # Of a value:
+    also: tuple = ()  # what else the page asks for; None is not judged
+    share: bool = False  # the answer may be given in percent
+    # Of a function:
+    cases: Callable | None = None  # Generator -> arguments to try; None: a value
+    probe: Callable = call  # function, *arguments -> what is compared
+    exact: Callable | None = None  # *arguments -> what the solution comes to; or tried
+    tell: Callable | None = None  # two outcomes -> in words how they differ
+    alike: float = 1e-6  # the tolerance within which an answer is a known mistake
 
     @property
     def name(self) -> str:
@@ -51,9 +69,41 @@ class Exercise:
         """The names of its parameters."""
         return list(inspect.signature(self.solution).parameters)
 
+    def as_data(self) -> dict:
+        """
+        Return what a page needs to ask, to judge a value and to reply, for JSON.
+
+        Functions cannot be judged without Python: of them there are the hints, and
+        what is said to each mistake.  Infinity is the text "inf".
+        """
+        data = {
+            "id": self.key,
+            "task": self.task,
+            "hints": list(self.hints),
+            "wrong": [{"name": w.name, "hint": w.hint} for w in self.wrong],
+        }
+        if self.cases:
+            signature = f"{self.name}({', '.join(self.parameters)})"
+            return data | {"kind": "function", "signature": signature}
+        for entry, wrong in zip(data["wrong"], self.wrong, strict=True):
+            entry["answer"] = _plain(wrong.answer)
+        return data | {
+            "kind": self.read.__name__,  # "numbers", "size" or "word"
+            "solution": _plain(self.solution),
+            "also": [_plain(value) for value in self.also],
+            "share": self.share,
+            "tolerance": self.tolerance,
+        }
+
+
+def _plain(value) -> float | str | None:
+    if value is None or isinstance(value, str):
+        return value
+    return float(value) if np.isfinite(value) else str(float(value))
+
 
 def value(key, task, solution, *, hints, wrong, **options) -> Exercise:
-    """Return an exercise that is answered by a number, an array or a word."""
+    """Return an exercise that is answered by a number or a word."""
     return Exercise(key, task, solution, tuple(hints), tuple(wrong), **options)
 
 
@@ -73,11 +123,9 @@ def exercises_of(page: int) -> dict[str, Exercise]:
     return {exercise.key: exercise for exercise in module.EXERCISES}
 
 
-def page_of(key) -> int | None:
+def page_of(key: str) -> int | None:
     """Return the page that an id such as ex-3-1 or ex-3-1b names, or None."""
-    match = (
-        re.fullmatch(r"ex-(\d{1,2})-\d+[b-z]?", key) if isinstance(key, str) else None
-    )
+    match = re.fullmatch(r"ex-(\d{1,2})-\d+[b-z]?", key, re.ASCII)
     return int(match[1]) if match else None
 
 

@@ -2,11 +2,44 @@
 
 from __future__ import annotations
 
+import ast
+import operator
+import re
+from collections.abc import Iterator
+from itertools import islice
+
 import numpy as np
 
 
 class Unreadable(Exception):
     """Says in kind words why an answer cannot be judged."""
+
+    printed = ""  # what the answer printed before
+
+
+QUOTES = " \t\r\n\"'`\u201c\u201d\u201e\u2018\u2019\u00ab\u00bb$!"
+SIGNS = str.maketrans(
+    {
+        **dict.fromkeys("\u2010\u2011\u2012\u2013\u2212\ufe63\uff0d", "-"),
+        **dict.fromkeys("\u00a0\u2007\u2009\u202f", " "),
+        **dict.fromkeys("\u00d7\u00b7\u22c5", "*"),
+        "\u00f7": "/",
+        "\u221e": "inf",
+        "^": "**",
+    }
+)
+OPERATORS = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+}
+USUAL = {"suppress": False, "formatter": {}, "floatmode": "maxprec", "sign": "-"}
+LONGEST = 200  # letters of a formula
+MOST = 100_000  # entries taken from something that could go on for ever
 
 
 def blank(answer) -> None:
@@ -20,17 +53,29 @@ def blank(answer) -> None:
 
 
 def numbers(answer) -> np.ndarray:
-    """Return an answer as an array of floats."""
+    """Return an answer as an array of floats; a text may hold a formula."""
     blank(answer)
-    if callable(answer):
+    if isinstance(answer, str):
+        found = [formula(part) for part in re.split(r";|,\s+|\band\b", plain(answer))]
+        answer = found[0] if len(found) == 1 else found
+    elif isinstance(answer, Iterator):
+        answer = list(islice(answer, MOST))
+    elif callable(answer):
         raise Unreadable("This is a function; what is asked for is a number or array")
+    if isinstance(answer, (list, tuple)) and any(isinstance(a, str) for a in answer):
+        answer = [numbers(a).tolist() for a in answer]
     try:
+        array = np.asarray(answer)
+        if np.iscomplexobj(array) and not array.imag.any():
+            answer = array.real
         array = np.array(answer, dtype=float)
+        lost = np.iscomplexobj(answer) or np.ma.is_masked(answer)
     except Exception:
-        kind = type(answer).__name__
+        lost = True
+    if lost:
         raise Unreadable(
-            f"A number or an array of numbers is asked for, not a {kind}"
-        ) from None
+            f"A number or an array of numbers is asked for, not {_kind(answer)}"
+        )
     if np.isnan(array).any():
         raise Unreadable(
             "There is a `nan` in it, which comes from 0/0 or from inf - inf. "
@@ -45,12 +90,18 @@ def size(answer) -> np.ndarray:
 
 
 def word(answer) -> str:
-    """Return an answer as a word in lower case."""
+    """Return a text without quotes, article and plural; yes or no if it says so."""
     blank(answer)
+    if isinstance(answer, (bool, np.bool_)):
+        return "yes" if answer else "no"
     if not isinstance(answer, str):
-        kind = type(answer).__name__
-        raise Unreadable(f"A word in quotes is asked for, not a {kind}")
-    return answer.strip(" .!").lower()
+        raise Unreadable(f"A word in quotes is asked for, not {_kind(answer)}")
+    words = re.findall(r"\w+", str.__str__(answer).lower())
+    if words and words[0] in ("yes", "y", "true", "no", "n", "not", "false"):
+        return "yes" if words[0] in ("yes", "y", "true") else "no"
+    if len(words) > 1 and words[0] in ("a", "an", "the"):
+        words = words[1:]
+    return " ".join(re.sub(r"(?<=\w\w[^s])s$", "", w) for w in words)
 
 
 def numbers_of_actions(answer) -> np.ndarray:
@@ -64,25 +115,103 @@ def numbers_of_actions(answer) -> np.ndarray:
     return np.unique(array).astype(float)
 
 
+def forms(answer) -> list:
+    """Return what an answer may mean: a comma in a text is one of two things."""
+    if not isinstance(answer, str) or "," not in str.__str__(answer):
+        return [answer]
+    text = str.__str__(answer)
+    found = []
+    if len(re.findall(r",\d", text)) == 1:  # 0,28
+        found.append(re.sub(r",(?=\d)", ".", text))
+    if re.search(r"\d,\d{3}(?!\d)", text):  # 5,000
+        found.append(re.sub(r"(?<=\d),(?=\d{3})", "", text))
+    return found or [text]
+
+
+def plain(text: str) -> str:
+    """Return a text with the signs of a keyboard, without quotes and what they hold."""
+    text = str.__str__(text).translate(SIGNS).strip(QUOTES)
+    text = re.split(r"[=\u2248~]", text)[-1]  # "x = 5" says 5
+    return re.sub(r"(?<=\d) (?=\d{3}(?!\d))", "", text)  # 5 000
+
+
+def formula(text: str) -> float:
+    """
+    Return the number that a text stands for; nothing in it is run.
+
+    >>> formula("1/(1 - 0.9)"), formula("5 goals"), formula("2**-1 %")
+    (10.000000000000002, 5.0, 0.5)
+    """
+    bare = re.sub(r"(?<=[\d.)])\s*(%|per cent|[a-z]{2,})?[.\s]*$", "", text.strip())
+    try:
+        if len(bare) > LONGEST:
+            raise ValueError("too long")
+        number = _worth(ast.parse(bare.strip(), mode="eval").body)
+    except (SyntaxError, ValueError, ArithmeticError, RecursionError, MemoryError):
+        raise Unreadable(
+            f"A number is asked for; `{short(text, 40)}` cannot be read as one"
+        ) from None
+    return number
+
+
+def _worth(node: ast.AST) -> float:
+    match node:
+        case ast.Constant() if type(node.value) in (int, float):
+            return float(node.value)
+        case ast.Name(id="inf" | "infinity"):
+            return np.inf
+        case ast.UnaryOp() if type(node.op) in OPERATORS:
+            return OPERATORS[type(node.op)](_worth(node.operand))
+        case ast.BinOp() if type(node.op) in OPERATORS:
+            return float(
+                OPERATORS[type(node.op)](_worth(node.left), _worth(node.right))
+            )
+    raise ValueError("no number")
+
+
+def _kind(thing) -> str:
+    name = short(type(thing).__name__, 40)
+    if name == "str":
+        return "a text"
+    if isinstance(thing, (list, tuple)) and thing:
+        inside = short(type(thing[0]).__name__, 40)
+        if inside in ("set", "dict", "list", "tuple", "NoneType", "ellipsis"):
+            return f"a {name} of {inside}s"
+    return f"a {name}"
+
+
 def same(a, b, tolerance: float) -> bool:
-    """Return whether two answers that were read agree."""
+    """Return whether two answers that were read agree, but for axes of length 1."""
     if isinstance(a, str) or isinstance(b, str):
         return isinstance(a, str) and isinstance(b, str) and a == b
-    if a.size == b.size == 1:
-        a, b = a.ravel(), b.ravel()
+    a, b = np.squeeze(a), np.squeeze(b)
     return a.shape == b.shape and np.allclose(a, b, rtol=tolerance, atol=tolerance)
 
 
-def shown(thing) -> str:
+def short(text: str, length: int = 200) -> str:
+    """Return a text in one line, of letters that can be shown, cut to a length."""
+    text = str.__str__(text)[: 4 * length]
+    text = re.sub(r" at 0x[0-9a-fA-F]+", "", text).replace("`", "'")
+    text = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return text if len(text) <= length else text[: length - 3].rstrip() + "..."
+
+
+def shown(thing, precision: int = 4) -> str:
     """Return a number, array or function as a short text, the same each time."""
-    if callable(thing):
-        return getattr(thing, "__name__", type(thing).__name__)
-    if isinstance(thing, (list, tuple)):
-        return f"[{', '.join(shown(part) for part in thing)}]"
-    if isinstance(thing, (bool, np.bool_, str)):
-        return repr(thing)
     try:
-        text = np.array2string(np.asarray(thing), precision=4, separator=", ")
+        if isinstance(thing, np.random.Generator):
+            return "a generator"
+        if callable(thing):
+            return short(getattr(thing, "__name__", type(thing).__name__))
+        if isinstance(thing, (list, tuple)):
+            return f"[{', '.join(shown(part, precision) for part in thing[:50])}]"
+        if isinstance(thing, (bool, np.bool_)):
+            return str(bool(thing))
+        if type(thing) is int:
+            return short(str(thing))
+        if isinstance(thing, str):
+            return repr(short(thing))
+        with np.printoptions(precision=precision, threshold=100, **USUAL):
+            return short(np.array2string(np.asarray(thing), separator=", "), 400)
     except Exception:
-        return type(thing).__name__
-    return " ".join(text.split())
+        return short(type(thing).__name__)

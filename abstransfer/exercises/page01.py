@@ -45,16 +45,27 @@ def _paid_on_the_goal(neighbors, goal, success, cell, direction, luck):
     return now, (1 if now == goal else 0)
 
 
-def _two_rooms(rng):
-    """Yield every step in a corridor of four cells, and from a few more cells."""
-    neighbors = np.array(
-        [[-1, 1, -1, -1], [-1, 2, -1, 0], [-1, 3, -1, 1], [-1, -1, -1, 2]]
-    )
-    for cell in range(3):
-        for direction in range(4):
-            for luck in (0.05, 0.95):
-                yield neighbors, 3, 0.9, cell, direction, luck
-                yield neighbors, 3, 0.5, cell, direction, float(rng.random())
+def _reward_first(neighbors, goal, success, cell, direction, luck):
+    return step(neighbors, goal, success, cell, direction, luck)[::-1]
+
+
+def _fails_at_equal(neighbors, goal, success, cell, direction, luck):
+    return step(neighbors, goal, success, cell, direction, luck - 1e-9)
+
+
+def _four_cells(rng):
+    """Yield every step from the cells of a corridor and of a square, 3 x 2 lucks."""
+    corridor = [[-1, 1, -1, -1], [-1, 2, -1, 0], [-1, 3, -1, 1], [-1, -1, -1, 2]]
+    square = [[-1, 1, 2, -1], [-1, -1, 3, 0], [0, 3, -1, -1], [1, -1, -1, 2]]
+    for neighbors, goal in ((corridor, 3), (square, 0), (square, 2)):
+        for cell in set(range(4)) - {goal}:
+            for direction in range(4):
+                for success in (0.5, 0.9):
+                    low = round(rng.uniform(0, success), 2)
+                    high = round(rng.uniform(success, 1), 2)
+                    for luck in (low, high, success):
+                        case = goal, success, cell, direction, luck
+                        yield np.array(neighbors), *case
 
 
 EXERCISES = [
@@ -135,7 +146,7 @@ EXERCISES = [
         "succeeds if `luck < success`, else the robot stays. Arriving at the goal pays "
         "0, any other step -1; staying counts as arriving where it was.",
         step,
-        cases=_two_rooms,
+        cases=_four_cells,
         same=(step_in_other_words,),
         hints=(
             "Two things can keep the robot where it is. Which?",
@@ -169,6 +180,16 @@ EXERCISES = [
                 "the other reward rule",
                 _paid_on_the_goal,
                 "That is 1 on the goal and 0 elsewhere. The paper pays 0 and -1.",
+            ),
+            Wrong(
+                "the reward first",
+                _reward_first,
+                "Return the cell first, then the reward.",
+            ),
+            Wrong(
+                "luck equal to success",
+                _fails_at_equal,
+                "The move succeeds if `luck` lies *below* `success`; equal fails.",
             ),
         ],
     ),

@@ -6,15 +6,15 @@ from ._model import Wrong, function, value
 from ._read import numbers_of_actions
 
 
-def backup(reward, gamma, values_of_successors, probabilities):
+def backup(reward, gamma, values, probabilities):
     """Return the value of a state from those of its successors, both (A, K)."""
-    expected = (probabilities * values_of_successors).sum(axis=1)
+    expected = (probabilities * values).sum(axis=1)
     return reward + gamma * expected.max()
 
 
-def backup_by_loops(reward, gamma, values_of_successors, probabilities):
+def backup_by_loops(reward, gamma, values, probabilities):
     best = -np.inf
-    for v, p in zip(values_of_successors, probabilities, strict=True):
+    for v, p in zip(values, probabilities, strict=True):
         best = max(best, sum(a * b for a, b in zip(v, p, strict=True)))
     return gamma * best + reward
 
@@ -25,10 +25,11 @@ def _expected(v, p):
 
 def _states(rng):
     for n_actions, n_outcomes in ((2, 1), (1, 2), (2, 2), (3, 2), (4, 3)):
-        for gamma in (0.9, 0.99):
+        for reward, gamma in ((-1, 0.9), (-2, 0.99), (0.5, 0.95)):
             p = rng.random((n_actions, n_outcomes))
             v = rng.uniform(-20, 5, (n_actions, n_outcomes)).round(1)
-            yield -1, gamma, v, p / p.sum(axis=1, keepdims=True)
+            yield reward, gamma, v, p / p.sum(axis=1, keepdims=True)
+    yield -1, 0.99, np.array([[-5.0, -6], [-6, -6]]), np.array([[0.9, 0.1], [0, 1]])
 
 
 def greedy_set(q_row, tolerance):
@@ -45,22 +46,29 @@ def _masked_as_zero(q_row, tolerance):
     return greedy_set(np.where(np.isinf(q_row), 0, q_row), tolerance)
 
 
+def _values_instead(q_row, tolerance):
+    return q_row[greedy_set(q_row, tolerance)]
+
+
 def _rows(rng):
     tiny = 1e-12
+    yield np.array([-1.0, -2, -1, -3]), 0
     yield np.array([-3.0, -2.0, -2.0 - tiny, -np.inf]), 1e-9
     yield np.array([1.0, 2.0 - tiny, 0.0, 2.0]), 1e-9
-    yield np.array([-1.0, -1.0, -1.0]), 1e-9
+    yield np.array([2.0, 2.0 - tiny, 0.0, 2.0]), 0
     yield np.array([-2.5, -np.inf, -2.4, -2.0]), 0.45
-    for _ in range(12):
+    yield np.array([-2.5, -3.0, -2.75, -2.0]), 0.5  # one exactly at the edge
+    yield np.array([-1.0, -1.0, -1.0]), 1e-9
+    for tolerance in (0, 1e-9, 1e-9, 1) * 3:
         row = rng.integers(-4, 0, 6) * 1.0 + rng.choice([0, tiny], 6)
         row[rng.integers(6)] = -np.inf
-        yield row, 1e-9
+        yield row, tolerance
 
 
 EXERCISES = [
     function(
         "ex-2-1",
-        "Write `backup`, one Bellman backup of one state. `values_of_successors` and "
+        "Write `backup`, one Bellman backup of one state. `values` and "
         "`probabilities` have a row for each action and a column for each outcome. The "
         "reward is that of the state itself.",
         backup,
@@ -69,8 +77,8 @@ EXERCISES = [
         hints=(
             "First say what each action is worth, then choose.",
             "An action is worth the sum of probability times value over its outcomes.",
-            "It is `reward + gamma * best`, where `best` is the largest of "
-            "`(probabilities * values_of_successors).sum(axis=1)`.",
+            "`best = (probabilities * values).sum(axis=1).max()`; then it is "
+            "`reward + gamma * best`.",
         ),
         wrong=[
             Wrong(
@@ -103,6 +111,14 @@ EXERCISES = [
                 "all outcomes alike",
                 lambda reward, gamma, v, p: reward + gamma * v.mean(axis=1).max(),
                 "Outcomes are not equally likely: weigh them with `probabilities`.",
+            ),
+            Wrong(
+                "the largest is sought from 0 on",
+                lambda reward, gamma, v, p: (
+                    reward + gamma * max(0, _expected(v, p).max())
+                ),
+                "Where all values lie below 0, a 0 to begin with is never beaten. "
+                "Begin with the first action, or with -inf.",
             ),
         ],
     ),
@@ -155,6 +171,11 @@ EXERCISES = [
                     q_row <= np.min(q_row[np.isfinite(q_row)]) + tolerance
                 ),
                 "You return the worst of the allowed actions. The best is the largest.",
+            ),
+            Wrong(
+                "values instead of actions",
+                _values_instead,
+                "You return the values of the best actions; asked are their numbers.",
             ),
         ],
     ),

@@ -1,9 +1,11 @@
 """Exercises of page 3: learning by bumping."""
 
+import copy
+
 import numpy as np
 
-from ._epsilon_greedy import EPSILON_GREEDY
 from ._model import Wrong, function, value
+from ._read import Unreadable, numbers, shown
 
 
 def updated(old, reward, next_values, reached_goal, cut, alpha, gamma):
@@ -50,13 +52,25 @@ def _mean(old, reward, next_values, reached_goal, cut, alpha, gamma):
     return updated(old, reward, mean, reached_goal, cut, alpha, gamma)
 
 
+def _old_not_reduced(old, reward, next_values, reached_goal, cut, alpha, gamma):
+    new = updated(old, reward, next_values, reached_goal, cut, alpha, gamma)
+    return new + alpha * old
+
+
+def _reward_only(old, reward, next_values, reached_goal, cut, alpha, gamma):
+    following = 0 if reached_goal else max(next_values)
+    return (1 - alpha) * old + alpha * reward + gamma * following
+
+
 def _steps(rng):
     ends = [(False, False), (True, False), (False, True)]
     yield 0.5, 0, np.array([0.2, 0.8]), False, False, 0.1, 0.9
-    for reached_goal, cut in ends * 4:
-        old, *following = rng.uniform(0.1, 0.9, 4).round(2)
-        reward = int(reached_goal)
-        yield old, reward, np.array(following), reached_goal, cut, 0.1, 0.9
+    for alpha, gamma in ((0.1, 0.9), (0.3, 0.8), (0.5, 0.99), (0.2, 0.5)):
+        for reached_goal, cut in ends:
+            old, *following = rng.uniform(0.1, 0.9, 4).round(2).tolist()
+            for reward in (int(reached_goal), int(reached_goal) - 1):
+                after = np.array(following)
+                yield old, reward, after, reached_goal, cut, alpha, gamma
 
 
 UPDATED = function(
@@ -122,6 +136,182 @@ UPDATED = function(
             _mean,
             "Q-learning asks what the *best* next action would bring, whichever the "
             "robot will take.",
+        ),
+        Wrong(
+            "the old value is kept whole",
+            _old_not_reduced,
+            "You add a share of the target, and take away nothing: the value grows "
+            "without end. Keep a share 1 - alpha of the old one.",
+        ),
+        Wrong(
+            "alpha for the reward only",
+            _reward_only,
+            "Alpha belongs to the whole target: reward plus what follows. Are there "
+            "brackets?",
+        ),
+    ],
+)
+
+
+N_DRAWS, N_AGAIN = 2000, 100
+
+
+def epsilon_greedy(q_row, epsilon, rng):
+    """Return an action: any with probability epsilon, else one of the best."""
+    if rng.random() < epsilon:
+        return rng.integers(len(q_row))
+    return rng.choice(np.flatnonzero(q_row == np.max(q_row)))
+
+
+def epsilon_greedy_by_weights(q_row, epsilon, rng):
+    best = np.asarray(q_row) == max(q_row)
+    weight = (1 - epsilon) * best / best.sum() + epsilon / len(q_row)
+    return int((rng.random() >= np.cumsum(weight)[:-1]).sum())
+
+
+def _first_best(q_row, epsilon, rng):
+    return rng.integers(len(q_row)) if rng.random() < epsilon else np.argmax(q_row)
+
+
+def _last_best(q_row, epsilon, rng):
+    last = len(q_row) - 1 - np.argmax(q_row[::-1])
+    return rng.integers(len(q_row)) if rng.random() < epsilon else last
+
+
+def _inverted(q_row, epsilon, rng):
+    return epsilon_greedy(q_row, 1 - epsilon, rng)
+
+
+def _never_the_best(q_row, epsilon, rng):
+    others = np.flatnonzero(q_row < np.max(q_row))
+    if len(others) and rng.random() < epsilon:
+        return rng.choice(others)
+    return epsilon_greedy(q_row, 0, rng)
+
+
+def _never_explores(q_row, epsilon, rng):
+    return epsilon_greedy(q_row, 0, rng)
+
+
+def _own_luck(q_row, epsilon, rng):
+    return epsilon_greedy(q_row, epsilon, np.random.default_rng())
+
+
+def _off_by_one(q_row, epsilon, rng):
+    if rng.random() < epsilon:
+        return rng.integers(max(1, len(q_row) - 1))
+    return epsilon_greedy(q_row, 0, rng)
+
+
+def shares(choose, q_row, epsilon, rng):
+    """Return how often each action is drawn, and whether a seed repeats itself."""
+    drawn = []
+    for n in (N_DRAWS, N_AGAIN):
+        luck = copy.deepcopy(rng)
+        drawn.append([_action(choose(q_row.copy(), epsilon, luck)) for _ in range(n)])
+    n_actions, actions = len(q_row), set(range(len(q_row)))
+    if strange := [a for a in drawn[0] if a not in actions]:
+        raise Unreadable(
+            f"An action is a whole number from 0 to {n_actions - 1} where q_row has "
+            f"{n_actions} entries; yours was {shown(strange[0])}"
+        )
+    counts = np.bincount(np.array(drawn[0], int), minlength=n_actions)
+    return np.append(counts / N_DRAWS, drawn[1] == drawn[0][:N_AGAIN])
+
+
+def _action(returned):
+    if isinstance(returned, (int, np.integer)):
+        return int(returned)
+    array = numbers(returned)
+    if array.size != 1:
+        raise Unreadable("The function must return one number, that of an action")
+    return array.item()
+
+
+def exact_shares(q_row, epsilon, rng):
+    """Return how likely each action is; and yes, a seed repeats itself."""
+    best = q_row == q_row.max()
+    return np.append(epsilon / len(q_row) + (1 - epsilon) * best / best.sum(), 1)
+
+
+def _shares_differ(ours, right):
+    (*a, _), (*b, _) = ours.values, right.values
+    if np.allclose(a, b, rtol=0, atol=0.05):
+        return "With the same luck in `rng`, yours draws other actions"
+    a, b = (shown(np.array(x), 2) for x in (a, b))
+    return f"Yours draws the actions in the shares {a}, not in about {b}"
+
+
+def _choices(rng):
+    """Yield few and clear cases: a right answer's shares err by 0.011 at most."""
+    rows = (
+        [0.0, 0, 0, 0],
+        [0.2, 0.5, 0.5, 0.1],
+        [0.5, 0.1, 0.2, 0.5],
+        [0.3, -1],
+        [1, 4, 2],
+    )
+    for seed, (row, epsilon) in enumerate(zip(rows, (0.3, 0, 0.6, 1, 1), strict=True)):
+        yield np.array(row, float), epsilon, np.random.default_rng(seed)
+
+
+EPSILON_GREEDY = function(
+    "ex-3-2",
+    "Write `epsilon_greedy`, which returns the number of an action: with probability "
+    "`epsilon` any action, else one of the best, equal ones by chance. Draw all luck "
+    "from `rng`.",
+    epsilon_greedy,
+    cases=_choices,
+    same=(epsilon_greedy_by_weights,),
+    probe=shares,
+    exact=exact_shares,
+    tell=_shares_differ,
+    tolerance=0.05,
+    alike=0.05,
+    hints=(
+        "Two draws: whether to explore, and which action.",
+        "`rng.random() < epsilon` is true in a share `epsilon` of the calls; "
+        "`rng.integers(n)` draws a whole number below n.",
+        "The best actions are `np.flatnonzero(q_row == q_row.max())`; `rng.choice` "
+        "draws one of them.",
+    ),
+    wrong=[
+        Wrong(
+            "the first of equals",
+            _first_best,
+            "`argmax` returns the first of equal values. A robot whose notes are all 0 "
+            "would walk into the same wall for hours: draw among the best.",
+        ),
+        Wrong(
+            "the last of equals",
+            _last_best,
+            "Where several actions are best, you take the last one. Draw among them.",
+        ),
+        Wrong(
+            "epsilon the wrong way round",
+            _inverted,
+            "Epsilon is the share of *random* actions; yours is the share of best "
+            "ones.",
+        ),
+        Wrong(
+            "exploring leaves out the best",
+            _never_the_best,
+            "A random action is *any* action; the best ones may be drawn as well.",
+        ),
+        Wrong(
+            "never explores",
+            _never_explores,
+            "In a share `epsilon` of the calls the values must not matter.",
+        ),
+        Wrong(
+            "luck of its own",
+            _own_luck,
+            "The same seed must give the same actions: draw from `rng` only.",
+        ),
+        Wrong(
+            "the last action is never explored",
+            _off_by_one,
+            "`rng.integers(n)` stops below n already: give it `len(q_row)`.",
         ),
     ],
 )

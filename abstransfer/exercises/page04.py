@@ -45,10 +45,10 @@ def _apart(cell, goal, width):
 
 
 def _pairs(rng):
-    for width in (15, 30):
-        for _ in range(60):
+    for width, near in ((15, 5), (15, 8), (30, 5), (30, 3)):
+        for _ in range(30):
             cell, goal = (int(i) for i in rng.integers(0, 9 * width, 2))
-            yield cell, goal, width, 5
+            yield cell, goal, width, near
     yield 0, 5, 15, 5
     yield 0, 15 * 3 + 3, 15, 5
 
@@ -133,6 +133,11 @@ EXERCISES = [
                 "A distance of exactly `near` still is near.",
             ),
             Wrong(
+                "the distance itself",
+                lambda cell, goal, width, near: sum(_apart(cell, goal, width)),
+                "You return how far it is; asked is whether that is at most `near`.",
+            ),
+            Wrong(
                 "numbers of cells subtracted",
                 lambda cell, goal, width, near: abs(cell - goal) <= near,
                 "The cell below differs by a whole `width`, and is one step away. "
@@ -145,10 +150,11 @@ EXERCISES = [
         "How many abstract states occur among the cells of the source building, over "
         "all tasks, goals left out?",
         88,
+        also=(96,),  # in the target
         hints=(
-            "Count different entries of `tasks.rho`.",
-            "Leave out the states in which `tasks.mdp.terminal` is true.",
-            "`len(np.unique(tasks.rho[~tasks.mdp.terminal]))`.",
+            "Count different entries of `source.rho`.",
+            "Leave out the states in which `source.mdp.terminal` is true.",
+            "`len(np.unique(source.rho[~source.mdp.terminal]))`.",
         ),
         wrong=[
             Wrong(

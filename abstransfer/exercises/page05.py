@@ -87,18 +87,57 @@ def _always_best(policies, rhos, n_abstract):
     return _shares(1.0 * ((votes == n) & (n > 0)))
 
 
+def _uniform_without_votes(policies, rhos, n_abstract):
+    votes = _votes(policies, rhos, n_abstract)
+    return _shares(np.where(votes.sum(axis=1, keepdims=True) > 0, votes, 1))
+
+
+def _uniform_without_votes_nd(policies, rhos, n_abstract):
+    voted = _votes(policies, rhos, n_abstract) > 0
+    return _shares(1.0 * np.where(voted.any(axis=1, keepdims=True), voted, True))
+
+
+def _whole_votes(policies, rhos, n_abstract):
+    return induce_prob([1.0 * (policy > 0) for policy in policies], rhos, n_abstract)
+
+
+def _first_of_ties(policies, rhos, n_abstract):
+    first = [np.eye(p.shape[1])[p.argmax(axis=1)] * (p > 0) for p in policies]
+    return induce_prob(first, rhos, n_abstract)
+
+
+def _of_all_votes(policies, rhos, n_abstract):
+    votes = _votes(policies, rhos, n_abstract)
+    return votes / votes.sum()
+
+
+def _half_votes_lost(policies, rhos, n_abstract):
+    return _shares(1.0 * (_votes(policies, rhos, n_abstract) >= 1))
+
+
+def _by_all_actions(policies, rhos, n_abstract):
+    voted = _votes(policies, rhos, n_abstract) > 0
+    return voted / voted.shape[1]
+
+
 def _buildings(rng):
-    """Yield three tasks of different sizes; the last cell of each is its goal."""
-    for sizes in ((3, 2, 2), (5, 9, 14), (20, 6, 8), (12, 12, 30)):
-        policies, rhos = [], []
-        for n in sizes:
-            policy = np.eye(4)[rng.choice(4, n, p=[0.5, 0.25, 0.15, 0.1])]
-            policy[0] = [0.5, 0.5, 0, 0]  # a tie
-            policy[-1] = 0
-            policies.append(policy)
-            rhos.append(rng.choice(5, n, p=[0.3, 0.3, 0.2, 0.2, 0]))  # 4 is never seen
-        rhos[0][-1], rhos[1][-1] = rhos[0][0], rhos[1][0]
-        yield policies, rhos, 5
+    """Yield tasks of different sizes; the last cell of each is its goal."""
+    tie, none = [0.5, 0.5], [0.0, 0.0]
+    yield [np.array([tie, [1.0, 0.0], none])], [np.array([0, 1, 1])], 3
+    yield [np.array([[0.0, 1.0], tie, none])], [np.array([0, 0, 1])], 2
+    for n_actions, n_abstract in ((4, 5), (4, 7), (3, 6)):
+        rarer = 0.5 ** np.arange(n_actions)
+        for sizes in ((5, 9, 14), (5, 9, 14), (20, 6, 8)):
+            policies, rhos = [], []
+            for n in sizes:
+                best = rng.choice(n_actions, n, p=rarer / rarer.sum())
+                policy = np.eye(n_actions)[best]
+                policy[0], policy[0, :2] = 0, 0.5  # a tie
+                policy[-1] = 0
+                policies.append(policy)
+                rhos.append(rng.integers(4, size=n))  # the others are never seen
+            rhos[0][-1], rhos[1][-1] = rhos[0][0], rhos[1][0]
+            yield policies, rhos, n_abstract
 
 
 TASK = (
@@ -168,6 +207,27 @@ EXERCISES = [
                 _winner,
                 "You keep the most frequent action only; all keep their share.",
             ),
+            Wrong(
+                "uniform where nobody votes",
+                _uniform_without_votes,
+                "Here a row without a vote stays 0; filling it is left to the caller.",
+            ),
+            Wrong(
+                "a tie casts whole votes",
+                _whole_votes,
+                "Two equally good actions share the one vote of their state: add "
+                "`policy`, not `policy > 0`.",
+            ),
+            Wrong(
+                "the first of equals gets the vote",
+                _first_of_ties,
+                "`argmax` takes the first of equals. Each of them gets its share.",
+            ),
+            Wrong(
+                "divided by all votes",
+                _of_all_votes,
+                "Divide each row by the votes in *that* row.",
+            ),
         ],
     ),
     function(
@@ -215,6 +275,22 @@ EXERCISES = [
                 "Your columns sum to 1; each row must.",
             ),
             Wrong(
+                "uniform where nobody votes",
+                _uniform_without_votes_nd,
+                "Here a row without a vote stays 0; filling it is left to the caller.",
+            ),
+            Wrong(
+                "half a vote is none",
+                _half_votes_lost,
+                "An action that tied once has half a vote, and it was best: ask for "
+                "more than 0, not for 1.",
+            ),
+            Wrong(
+                "divided by the number of all actions",
+                _by_all_actions,
+                "The actions of the set share the probability, not all that there are.",
+            ),
+            Wrong(
                 "one task only",
                 lambda policies, rhos, n: induce_nd(policies[-1:], rhos[-1:], n),
                 "Only the last task was counted. Is `votes` made anew in the loop?",
@@ -227,6 +303,8 @@ EXERCISES = [
         "the "
         "first one under the dial beta = 2?",
         0.36 / 0.46,
+        also=(6.6303,),  # beta for 99 percent
+        share=True,
         tolerance=2e-3,
         hints=(
             "The dial raises each share to the power beta.",

@@ -44,20 +44,20 @@ def _too_large(f, x):
     return np.array([f(x + e) - f(x) for e in np.eye(len(x))])
 
 
-def _sum_of_squares(x):
+def sum_of_squares(x):
     return float(np.sum(np.square(x)))
 
 
-def _product_of_sines(x):
+def product_of_sines(x):
     return float(np.prod(np.sin(x)))
 
 
-def _mixed(x):
+def mixed(x):
     return float(x[0] ** 3 - 2 * x[0] * x[-1] + np.exp(0.3 * x[-1]))
 
 
 def _hills(rng):
-    for f in (_sum_of_squares, _product_of_sines, _mixed):
+    for f in (sum_of_squares, product_of_sines, mixed):
         for n in (2, 4):
             yield f, rng.uniform(0.3, 1.2, n).round(2)
 
@@ -94,12 +94,13 @@ def _overwritten(d, q, rho, terminal, n_abstract, gamma):
 
 
 def _unions(rng):
-    for n_states in (3, 6, 12, 20):
-        rho = rng.integers(0, 4, n_states)
-        rho[:2] = 1  # two states that look alike
-        terminal = np.arange(n_states) == n_states - 1
+    sizes = (3, 3, 3, 6, 6, 12), (3, 4, 4, 4, 5, 6), (0.99, 0.9, 0.9, 0.99, 0.9, 0.95)
+    for n_states, n_abstract, gamma in zip(*sizes, strict=True):
+        rho = rng.integers(0, 3, n_states)
+        rho[:2] = rng.integers(3)  # two states that look alike
+        terminal = np.arange(n_states) == rng.choice([0, n_states - 1])
         d, q = rng.uniform(0.2, 3, n_states), rng.uniform(-9, -1, (n_states, 2))
-        yield d.round(1), q.round(1), rho, terminal, 4, 0.99
+        yield d.round(1), q.round(1), rho, terminal, n_abstract, gamma
 
 
 EXERCISES = [
@@ -115,8 +116,7 @@ EXERCISES = [
             "Change one entry of `x` a little, the others not at all.",
             "Take `h = 1e-5`; compare `f` a step h above with `f` a step h below, and "
             "divide by how far apart they are.",
-            "`(f(x + h * e) - f(x - h * e)) / (2 * h)` for each row `e` of "
-            "`np.eye(len(x))`.",
+            "`[(f(x + h * e) - f(x - h * e)) / (2 * h) for e in np.eye(len(x))]`.",
         ),
         wrong=[
             Wrong(
@@ -167,8 +167,8 @@ EXERCISES = [
         hints=(
             "Each state gives something to the row of its abstract state.",
             "State s gives `gamma * d[s] * q[s]`. Which states give nothing?",
-            "`np.add.at(G, rho, gamma * d[:, None] * q)`, with d set to 0 where "
-            "`terminal` is true.",
+            "`G = np.zeros((n_abstract, q.shape[1]))`, `d = np.where(terminal, 0, d)`, "
+            "`np.add.at(G, rho, gamma * d[:, None] * q)`.",
         ),
         wrong=[
             Wrong(
@@ -220,7 +220,8 @@ EXERCISES = [
         "actions is "
         "given back in proportion. How likely is the best action?",
         (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8),
-        tolerance=1e-4,
+        share=True,
+        tolerance=1e-3,
         hints=(
             "First ignore that some actions are impossible.",
             "The best action has 0.95 + 0.05/8, the two others 0.05/8 each.",
@@ -238,10 +239,10 @@ EXERCISES = [
                 "The 0.05 is spread over all 8 actions, the best one included.",
             ),
             Wrong(
-                "spread over the possible ones",
+                "shared out equally",
                 0.95 + 0.05 / 3,
-                "The 0.05 is spread over all 8 first, then the impossible are left "
-                "out.",
+                "You give each of the three an equal part of the 0.05. It is spread "
+                "over all 8; what the impossible have is given back *in proportion*.",
             ),
             Wrong("no softness", 1, "A little is kept for the other actions."),
         ],

@@ -37,12 +37,12 @@ def _one_sweep(P, r, gamma):
 
 def _drivers(rng):
     yield np.array([[0.1, 0.9], [0.0, 0.0]]), np.array([-1.0, 0.0]), 0.99
-    yield np.array([[0.1, 0.9], [0.0, 0.0]]), np.array([0.0, 1.0]), 0.9
-    for n in (3, 5, 8):
+    yield np.array([[0.2, 0.8], [0.0, 0.0]]), np.array([0.0, 1.0]), 0.9
+    for n, gamma in ((3, 0.9), (3, 0.95), (5, 0.9), (8, 0.8)):
         P = rng.random((n, n))
         P /= P.sum(axis=1, keepdims=True)
         P[-1] = 0
-        yield P, np.append(np.full(n - 1, -1.0), 1.0), 0.9
+        yield P, np.append(rng.choice([-1.0, -2.0], n - 1), 1.0), gamma
 
 
 EXERCISES = [
@@ -60,7 +60,7 @@ EXERCISES = [
         hints=(
             "The value of a state stands on both sides of its equation.",
             "Collect the unknowns on the left: V - gamma P V = r.",
-            "`np.linalg.solve(A, r)` with `A = np.eye(len(r)) - gamma * P`.",
+            "`A = np.eye(len(r)) - gamma * P`; then `np.linalg.solve(A, r)`.",
         ),
         wrong=[
             Wrong(
@@ -107,33 +107,34 @@ EXERCISES = [
         "What is the mean value, in the target building, of a robot that draws only "
         "from "
         "the actions available in each state?",
-        -93.88,
+        -93.878854,
+        also=(None,),  # which part of the cost is waiting
         tolerance=1e-3,  # the scenes print one digit
         hints=(
             "It is a uniform policy over fewer actions.",
-            "`at.uniform_policy(target.available)` is the policy.",
-            "The mean of `at.evaluate_policy(target.mdp, policy)`, over all states.",
+            "`policy = at.uniform_policy(target.available)`.",
+            "`at.evaluate_policy(target.mdp, policy).mean()`, over all states.",
         ),
         wrong=[
             Wrong(
                 "the wanderer",
-                -97.05,
+                -97.04841,
                 "This one draws from all 8 actions, and waits where it sees nothing.",
             ),
             Wrong(
                 "goals left out",
-                -94.05,
+                -94.053026,
                 "You average over the cells that are no goals. Table 1 counts all "
                 "cells.",
             ),
             Wrong(
                 "the other building",
-                -78.54,
+                -78.539476,
                 "That is the source building; what is asked for is the target.",
             ),
             Wrong(
                 "the sign",
-                93.88,
+                93.878854,
                 "The size is right. But the robot pays, so its value is below 0.",
             ),
         ],
@@ -142,17 +143,23 @@ EXERCISES = [
         "ex-7-3",
         "What is the mean value of Prob in the source building, if the actions are "
         "compass directions?",
-        -81.6,
+        -81.580346,
         tolerance=2e-3,
         hints=(
             "Make the tasks of the source once more, with other actions.",
-            '`at.navigation_tasks(source_map, actions="compass")`.',
-            "Build its pages with `at.abstract_policies` and evaluate `prob` on them.",
+            '`compass = at.navigation_tasks(source_map, actions="compass")`.',
+            '`prob = at.abstract_policies(compass)["prob"][compass.rho]`; then '
+            "`at.evaluate_policy(compass.mdp, prob).mean()`.",
         ),
         wrong=[
-            Wrong("the usual actions", -36.25, 'That is "go to what you see".'),
-            Wrong("ND", -82.9, "That is ND. What is asked for is Prob."),
-            Wrong("Grad", -66.5, "That is Grad. What is asked for is Prob."),
+            Wrong("the usual actions", -36.246087, 'That is "go to what you see".'),
+            Wrong("ND", -82.918996, "That is ND. What is asked for is Prob."),
+            Wrong("Grad", -66.464172, "That is Grad. What is asked for is Prob."),
+            Wrong(
+                "the sign",
+                81.580346,
+                "The size is right. But the robot pays, so its value is below 0.",
+            ),
             Wrong("the paper's number", -36.91, "That is Prob in the paper's Table 1."),
         ],
     ),
@@ -164,7 +171,7 @@ EXERCISES = [
         read=word,
         hints=(
             "Make the source tasks three times.",
-            "`at.navigation_tasks(source_map, success=success)`.",
+            "`at.navigation_tasks(source_map, success=0.9)` are those for 0.9.",
             "Compare the order of the four numbers in each line, not their size.",
         ),
         wrong=[

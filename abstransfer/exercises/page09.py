@@ -22,7 +22,6 @@ EXERCISES = [
             Wrong("the third power", 1000, "The root of 1,000 is about 32: too much."),
             Wrong("lives, not times", 5000, "So many lives in all; how many times 50?"),
         ],
-        tolerance=1e-2,
     ),
     value(
         "ex-9-2",
@@ -30,6 +29,7 @@ EXERCISES = [
         "0.75. "
         "How wide is the interval in pairs, as a share of that with wrong partners?",
         0.5,
+        share=True,
         hints=(
             "What partners share drops out of their difference.",
             "The variance of a difference is 2 (1 - r) times that of one life.",
@@ -73,7 +73,7 @@ EXERCISES = [
         "deviation). "
         "By how many percent does the mean of 50 runs vary?",
         2 / 50**0.5,
-        tolerance=2e-2,
+        tolerance=1e-2,
         hints=(
             "A mean of many runs varies less than one run. By which factor?",
             "Variances add up; the standard deviation of a mean of n runs falls with "
@@ -100,6 +100,7 @@ EXERCISES = [
         "is a "
         "run of X to reach more goals than a run of Y, a tie counting half?",
         5 / 9,
+        share=True,
         tolerance=1e-2,
         hints=(
             "Any run of X can meet any run of Y.",

@@ -44,11 +44,12 @@ def _within_the_list(page, possible, share):
 
 def _pages(rng):
     for share in (0, 0.1, 0.25, 0.5, 0.75, 1):
-        possible = rng.random((5, 8)) < 0.5
-        possible[:, 0] = True
-        page = rng.random((5, 8)) * possible * (rng.random((5, 8)) < 0.6)
-        page[:, 0] += 0.1
-        yield page / page.sum(axis=1, keepdims=True), possible, share
+        for shape in ((2, 3), (5, 8)):
+            possible = rng.random(shape) < 0.5
+            possible[:, 0] = True
+            page = rng.random(shape) * possible * (rng.random(shape) < 0.6)
+            page[:, 0] += 0.1
+            yield page / page.sum(axis=1, keepdims=True), possible, share
 
 
 def share_closed(low, middle, high):
@@ -76,7 +77,8 @@ EXERCISES = [
         same=(diluted_row_by_row,),
         hints=(
             "Two pages of advice, each with rows that sum to 1, are mixed.",
-            "The eager robot's page is `possible`, each row divided by its sum.",
+            "The eager robot's page is `possible`, each row divided by its sum: "
+            "`eager = possible / possible.sum(axis=1, keepdims=True)`.",
             "`(1 - share) * page + share * eager`.",
         ),
         wrong=[
@@ -121,7 +123,8 @@ EXERCISES = [
         hints=(
             "Take the mean of each first; then there are three numbers on a line.",
             "How far is it from low to middle, and how far from low to high?",
-            "`(middle - low) / (high - low)`, of the means.",
+            "`low, middle, high = np.mean(low), np.mean(middle), np.mean(high)`; then "
+            "`(middle - low) / (high - low)`.",
         ),
         wrong=[
             Wrong(

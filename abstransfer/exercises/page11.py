@@ -49,12 +49,13 @@ def _anything_instead(possible, heads):
 
 
 def _cases(rng):
-    heads = np.arange(8) < 4
-    for _ in range(10):
-        possible = rng.random((6, 8)) < 0.4
-        possible[0] = ~heads  # nothing leads to the goal
-        possible[1] = heads
-        possible[~possible.any(axis=1)] = True
+    for n_states, n_actions in ((2, 4), (2, 4), (6, 8), (6, 8), (5, 6), (5, 6)):
+        heads = np.zeros(n_actions, bool)
+        heads[rng.permutation(n_actions)[: n_actions // 2]] = True
+        possible = rng.random((n_states, n_actions)) < 0.4
+        possible[0], possible[0, heads] = True, False  # nothing leads to the goal
+        possible[0, rng.choice(np.flatnonzero(~heads))] = False
+        possible[1:, rng.choice(np.flatnonzero(heads))] = True
         yield possible, heads
 
 
@@ -70,9 +71,9 @@ EXERCISES = [
         same=(toward_goal_row_by_row,),
         hints=(
             "A page of advice is an array of probabilities, with a row for each view.",
-            "`possible & heads` is what you want, in rows where it is not empty.",
-            "`np.where(wanted.any(axis=1, keepdims=True), wanted, possible)`; then "
-            "divide each row by its sum.",
+            "`wanted = possible & heads` is what you want, in rows that are not empty.",
+            "`wanted = np.where(wanted.any(axis=1, keepdims=True), wanted, possible)`; "
+            "then divide each row by its sum.",
         ),
         wrong=[
             Wrong(
