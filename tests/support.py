@@ -1,6 +1,7 @@
 """What tests of many rooms use: folders, pages, a tab that reaches files only."""
 
 import os
+from concurrent.futures import Executor
 from pathlib import Path
 
 import pytest
@@ -37,6 +38,13 @@ def unavailable(what):
     if os.environ.get("CI"):
         pytest.fail(what)
     pytest.skip(what)
+
+
+class NoExecutor(Executor):
+    """Fails if it is given work."""
+
+    def submit(self, *arguments, **options):
+        raise AssertionError("nothing was to be run")
 
 
 class Visit:

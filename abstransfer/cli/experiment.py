@@ -40,7 +40,8 @@ def add_experiment(commands) -> None:
     what.add_argument(
         "--everything",
         action="store_true",
-        help="all that the book shows: both rewards, grids, tuned tau, four buildings",
+        help="all that the book shows: both rewards, grids, tuned tau, four buildings, "
+        "and what makes advice teach (page 10)",
     )
 
 
@@ -62,7 +63,7 @@ def add_figures(commands) -> None:
 
 def _run_experiment(arguments) -> int:
     from ..experiments.run import run_experiment
-    from ..reproduction.catalogue import Experiment, arms_of, reproduce
+    from ..reproduction.catalogue import Experiment, reproduce
 
     if arguments.everything and (arguments.reward, arguments.target) != (
         "goal",
@@ -83,10 +84,10 @@ def _run_experiment(arguments) -> int:
             )
         else:
             grid = arguments.tau_grid
-            what = Experiment("", "", "", 0, grid, arguments.tuned)
+            what = Experiment("", 0, grid=grid, tuned_by=arguments.tuned)
             runs = arguments.runs if arguments.runs is not None else 10 if grid else 50
             run_experiment(
-                arms_of(what, ""),
+                what.arms(""),
                 problem_of(arguments, arguments.target),
                 scale=arguments.scale,
                 n_runs=runs,

@@ -8,8 +8,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submodules=["figures", "ledger"],
     submod_attrs={
-        "catalogue": ["EXPERIMENTS", "reproduce"],
-        "study": ["BETAS", "SHARES", "make_guides"],
+        "catalogue": ["BETAS", "EXPERIMENTS", "SHARES", "make_guides", "reproduce"],
         "claims": ["CLAIMS"],
         "verdicts": ["combine", "judge"],
         "tables": ["measures_table", "to_markdown", "totals_table"],

@@ -1,95 +1,192 @@
 """
 All experiments of the book, as data, and one call that runs them.
 
-Both rewards; the paper's tau, a grid of tau, and the tau that is best there;
-and three more buildings that fit the paper's reference rows as well.
+For Figures 3 and 4 (pages 8 and 9): both rewards; the paper's tau, a grid of
+tau, and the tau that is best there; and three more buildings that fit the
+paper's reference rows as well.
+
+For page 10, which asks what makes advice teach well: guides made of the
+paper's by two dials.  `beta` raises the probabilities to a power (0 makes ND
+of Prob); `share` mixes in a robot that draws uniformly, among the available
+actions or among all.  Guides of a strategy have the same tau, so what differs
+is the advice alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from ..experiments.arms import ARMS, Arm, tau_cells
-from ..experiments.plan import SEED
-from ..experiments.problem import Problem
+import numpy as np
+
+from ..experiments.arms import ARMS, STRATEGIES, Arm, tau_cells
+from ..experiments.problem import Problem, build_guides
 from ..experiments.results import Results, load_results
 from ..experiments.run import run_experiment
 from ..experiments.tuning import tune, tuned_arms
 from ..maps import read_map
+from ..navigation import navigation_tasks
+from ..policies import beta_policy, uniform_policy
+
+TAU = {"hard": 3_500_000, "soft": 6_000_000}  # the paper's, of Prob
+BETAS = (0, 0.25, 0.5, 1, 2, 4, 8)
+SHARES = (0.1, 0.25, 0.5, 0.75)
+
+
+class Advice(NamedTuple):
+    """How a guide is made: (1 - share) base^beta + share x uniform."""
+
+    base: str  # a builder: "prob", "grad"
+    beta: float = 1  # 0 keeps which actions, and forgets how often
+    into: str = "available"  # what the uniform part draws from: "available", "all"
+    share: float = 0
+
+
+def _diluted(name: str, base: str, beta: float, into: str) -> dict[str, Advice]:
+    return {f"{name}-{into}-{w}": Advice(base, beta, into, w) for w in SHARES}
+
+
+ADVICE = {
+    **{f"beta-{beta}": Advice("prob", beta) for beta in BETAS},
+    **_diluted("prob", "prob", 1, "available"),
+    **_diluted("prob", "prob", 1, "all"),
+    **_diluted("nd", "prob", 0, "available"),
+    **_diluted("nd", "prob", 0, "all"),
+    **_diluted("grad", "grad", 1, "available"),
+    "grad": Advice("grad"),
+    "available": Advice("prob", 1, "available", 1),
+    "all": Advice("prob", 1, "all", 1),
+}
 
 
 class Experiment(NamedTuple):
     """One folder of results."""
 
     folder: str
-    reward: str
-    target: str
     n_runs: int
+    reward: str = "goal"
+    target: str = "target"
+    problem: Mapping = {}  # what else is not the problem of the book
     grid: bool = False  # every guided arm at every tau, with the tuning seeds
     tuned_by: str | None = None  # folder of the grid whose best tau to take
+    guides: tuple[str, ...] = ()  # names in ADVICE, in place of the nine arms
+    strategies: tuple[str, ...] = STRATEGIES  # under which they are given
+    taus: tuple[int, ...] = ()  # for which they are given, in place of TAU
+
+    def arms(self, out: str | Path) -> tuple[Arm, ...]:
+        """
+        Return what is compared; a tuned experiment reads its grid in `out`.
+
+        >>> [arm.name for arm in Experiment("x", 1, guides=("grad",)).arms("")]
+        ['none', 'grad-hard', 'grad-soft']
+        """
+        if self.tuned_by:
+            return tuned_arms(tune(load_results(Path(out) / self.tuned_by)))
+        if not self.guides:
+            return tau_cells() if self.grid else ARMS
+        return ARMS[:1] + tuple(
+            Arm(f"{guide}-{strategy}", guide, strategy, tau)
+            for guide in self.guides
+            for strategy in self.strategies
+            for tau in self.taus or (TAU[strategy],)
+        )
 
 
+SHORT = ("beta-0", "beta-0.25", "beta-0.5", "beta-1", "beta-4")
+BROAD = ("nd-available-0.5", "available")
+SOME = SHORT + BROAD
 EXPERIMENTS = (
+    *(Experiment(f"{r}-target", 50, r) for r in ("goal", "cost")),
     *(
-        Experiment(f"{reward}-target", reward, "target", 50)
-        for reward in ("goal", "cost")
-    ),
-    *(
-        Experiment(f"{reward}-target_{x}", reward, f"target_{x}", 20)
-        for reward in ("goal", "cost")
+        Experiment(f"{r}-target_{x}", 20, r, f"target_{x}")
+        for r in ("goal", "cost")
         for x in "bcd"
     ),
+    *(Experiment(f"{r}-target-tau", 10, r, grid=True) for r in ("goal", "cost")),
     *(
-        Experiment(f"{reward}-target-tau", reward, "target", 10, grid=True)
-        for reward in ("goal", "cost")
+        Experiment(f"{r}-target-tuned", 50, r, tuned_by=f"{r}-target-tau")
+        for r in ("goal", "cost")
     ),
+    Experiment("study-goal-target", 20, guides=tuple(ADVICE)),
+    Experiment("study-rescue-target", 20, problem={"max_episode": 500}, guides=SOME),
+    Experiment(
+        "study-masked-target", 20, problem={"unavailable": "masked"}, guides=SOME
+    ),
+    Experiment("study-cost-target", 20, "cost", guides=SOME),
     *(
         Experiment(
-            f"{reward}-target-tuned",
-            reward,
-            "target",
-            50,
-            tuned_by=f"{reward}-target-tau",
+            f"study-goal-target_{x}",
+            20,
+            target=f"target_{x}",
+            guides=SOME,
+            strategies=("hard",),
         )
-        for reward in ("goal", "cost")
+        for x in "bcd"
+    ),
+    Experiment(
+        "study-tau-target",
+        10,
+        guides=("beta-0", "beta-1", *BROAD),
+        strategies=("hard",),
+        taus=(1_000_000, 2_000_000, 3_500_000, 6_000_000, 9_000_000),
     ),
 )
 
 
-def arms_of(experiment: Experiment, out: str | Path) -> tuple[Arm, ...]:
-    """Return the arms of an experiment; a tuned one reads its grid in `out`."""
-    if experiment.tuned_by:
-        return tuned_arms(tune(load_results(Path(out) / experiment.tuned_by)))
-    return tau_cells() if experiment.grid else ARMS
+def make_guides(
+    names: Iterable[str] = tuple(ADVICE), problem: Problem | None = None
+) -> dict[str, np.ndarray]:
+    """
+    Return the abstract policies (Z, A) of these names in `ADVICE`.
+
+    Raises KeyError for a name that is not there.
+
+    >>> guides = make_guides(["beta-0", "beta-1"])
+    >>> bool(((guides["beta-0"] > 0) == (guides["beta-1"] > 0)).all())
+    True
+    """
+    problem = problem or Problem()
+    wanted = {name: ADVICE[name] for name in names}
+    built = build_guides(problem, {advice.base for advice in wanted.values()})
+    source = navigation_tasks(problem.source)
+    uniform = {
+        "available": uniform_policy(source.possible),
+        "all": uniform_policy(np.ones_like(source.possible)),
+    }
+    return {
+        name: (1 - share) * beta_policy(built[base], beta) + share * uniform[into]
+        for name, (base, beta, into, share) in wanted.items()
+    }
 
 
 def reproduce(
     out: str | Path,
     *,
-    scale: str = "paper",
+    experiments: Iterable[Experiment] = EXPERIMENTS,
     problem: Problem | None = None,
     n_runs: int | None = None,
-    seed: int = SEED,
-    n_workers: int | None = None,
-    experiments: tuple[Experiment, ...] = EXPERIMENTS,
     on_start: Callable[[Experiment], Callable | None] = lambda experiment: None,
+    **options,
 ) -> dict[str, Results]:
     """
-    Run all experiments of the book, each into its folder in `out`; or go on.
+    Run experiments, each into its folder in `out`; or go on where a call ended.
 
     Parameters
     ----------
-    out, scale, seed, n_workers
-        As for :func:`~abstransfer.experiments.run.run_experiment`.
+    out : path
+    experiments : iterable of Experiment
+        By default all that the book shows; the whole takes some 25 to 50 minutes
+        of two cores.
     problem : Problem, optional
-        What is not the paper's; reward and target are those of the experiment.
+        What is not the book's; reward and target are those of the experiment.
     n_runs : int, optional
         In place of the number of runs of each experiment.
     on_start : callable, optional
         Called with each experiment; returns its `on_progress`.
+    **options
+        Others of :func:`~abstransfer.experiments.run.run_experiment`.
 
     Returns
     -------
@@ -97,19 +194,17 @@ def reproduce(
     """
     found = {}
     for experiment in experiments:
+        changed = {"reward": experiment.reward, **experiment.problem}
+        target = read_map(experiment.target)
+        here = replace(problem or Problem(), target=target, **changed)
         found[experiment.folder] = run_experiment(
-            arms_of(experiment, out),
-            replace(
-                problem or Problem(),
-                reward=experiment.reward,
-                target=read_map(experiment.target),
-            ),
-            scale=scale,
+            experiment.arms(out),
+            here,
             n_runs=experiment.n_runs if n_runs is None else n_runs,
-            seed=seed,
             stream="tune" if experiment.grid else "report",
-            n_workers=n_workers,
+            guides=make_guides(experiment.guides, here) if experiment.guides else None,
             out=Path(out) / experiment.folder,
             on_progress=on_start(experiment),
+            **options,
         )
     return found

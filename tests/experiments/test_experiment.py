@@ -9,7 +9,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from support import unavailable
+from support import NoExecutor, unavailable
 
 from abstransfer import read_map
 from abstransfer.experiments import workers
@@ -43,13 +43,6 @@ def run(arms=THREE, problem=PROBLEM, **options):
 @pytest.fixture(scope="module")
 def expected():
     return run()
-
-
-class NoExecutor(Executor):
-    """Fails if it is given work."""
-
-    def submit(self, *arguments, **options):
-        raise AssertionError("nothing was to be run")
 
 
 class Backwards(Executor):
