@@ -151,12 +151,6 @@ def test_a_number_in_a_cell_reads_well_on_every_shade():
 # --- pictures ----------------------------------------------------------------
 
 
-def test_matplotlib_is_loaded_where_something_is_drawn_and_not_before():
-    code = "import sys, abstransfer.plotting; sys.exit('matplotlib' in sys.modules)"
-
-    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
-
-
 def test_only_the_room_of_pictures_names_matplotlib():
     package = ROOT / "abstransfer"
     importing = {
