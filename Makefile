@@ -12,6 +12,7 @@ PYTHON ?= python3
 HERE := $(shell cd "$$(dirname "$(strip $(MAKEFILE_LIST))")" && pwd -P)
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+DENO := DENO_DIR=.venv/share/deno $(BIN)/deno
 PYTEST := $(BIN)/python -m pytest --quiet -n 2
 
 .PHONY: book test lab pdf student bench clean env system
@@ -55,19 +56,23 @@ book: .venv/.book
 test: .venv/.book system
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/python -m abstransfer.scenes.bundle
+	$(DENO) fmt --check
+	$(DENO) lint
+	$(DENO) check abstransfer/scenes
 	$(MAKE) --no-print-directory book
 	$(PYTEST) --dist worksteal
 	$(PYTEST) --dist loadfile --nbval --nbval-current-env --nbval-cell-timeout=120 \
 	  book/*.ipynb
 
-# On a build server the browser and node come from the system's packages and no
-# test is skipped; elsewhere the tests that need them say how to get them.
+# On a build server the browser comes from the system's packages and no test is
+# skipped; elsewhere the tests that need it say how to get it.
 system:
 ifdef CI
-	@if ! { command -v chromium && command -v node; } >/dev/null; then \
+	@if ! command -v chromium >/dev/null; then \
 	  as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
 	  $$as_root apt-get update -qq && \
-	  $$as_root apt-get install -y -qq --no-install-recommends chromium nodejs fonts-dejavu; fi
+	  $$as_root apt-get install -y -qq --no-install-recommends chromium fonts-dejavu; fi
 endif
 
 bench: .venv/.book

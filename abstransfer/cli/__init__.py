@@ -133,7 +133,7 @@ def _add_doctor(commands) -> None:
     parser = commands.add_parser(
         "doctor",
         help="is this machine ready, and what to do if not",
-        description="Check versions, kernel, browser and node.",
+        description="Check versions, kernel and browser.",
     )
     parser.set_defaults(run=_run_doctor)
     parser.add_argument("--json", action="store_true", help="print JSON")

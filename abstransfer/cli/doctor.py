@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 from importlib import metadata
@@ -17,7 +16,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 PYTHON = "3.11"
-NODE = "18"
 BROWSERS = (
     *("chromium", "chromium-browser", "google-chrome", "chrome", "msedge"),
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
@@ -38,7 +36,7 @@ class Check(NamedTuple):
 
 def diagnose() -> list[Check]:
     """Look at everything the book and its tests need; one record for each."""
-    tools = (check_kernel(), check_cache(), check_browser(), check_node())
+    tools = (check_kernel(), check_cache(), check_browser())
     return [check_python(), *check_packages(), *tools]
 
 
@@ -96,16 +94,6 @@ def check_browser() -> Check:
     found = next(filter(None, map(shutil.which, BROWSERS)), "nothing")
     remedy = "for the browser tests install Chromium (Debian: apt-get install chromium)"
     return _check("browser", found != "nothing", found, remedy)
-
-
-def check_node() -> Check:
-    """Say whether the tests of scripts can run; to read, it is not needed."""
-    remedy = f"for the script tests install Node.js {NODE} or newer (Debian: nodejs)"
-    if not (node := shutil.which("node")):
-        return _check("node", False, "nothing", remedy)
-    answer = subprocess.run([node, "--version"], capture_output=True, text=True)
-    found = answer.stdout.strip().lstrip("v")
-    return _check("node", _release(found) >= _release(NODE), found, remedy)
 
 
 def _release(version: str) -> tuple[int, ...]:

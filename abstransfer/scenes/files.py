@@ -1,7 +1,8 @@
 """
-The front end of the scenes as text: one script and one style sheet.
+The front end of a scene as text: its script, and the style sheet.
 
-The built book loads them as files; a widget carries them in itself.
+The built book loads them as files; a widget carries them in itself.  A script is the
+bundle of its scene (`bundle`) behind what Python says to it.
 """
 
 from __future__ import annotations
@@ -9,12 +10,11 @@ from __future__ import annotations
 import json
 import re
 from functools import cache
-from importlib.resources import files
 
 from ..maps import read_map
 from ..plotting.style import PALETTE
+from .bundle import BUNDLES, COMMAND, FOLDER, BundleError, build, is_fresh
 
-FOLDER = files("abstransfer") / "scenes"
 SCENE = ".abstransfer-scene"
 LIGHT = SCENE
 DARK = ", ".join(
@@ -39,13 +39,25 @@ EXTRA = {
 }
 
 
-@cache
-def script() -> str:
-    """Return all parts and scenes as one classic script, as legible as its files."""
-    maps = {name: str(read_map(name)) for name in ("source", "target")}
-    data = json.dumps({"palette": _small_palette(), "mapTexts": maps})
-    head = f"Object.assign((globalThis.abstransfer ??= {{}}), {data});"
-    return "\n".join([head, *_scripts()])
+def page_script(name: str) -> str:
+    """
+    Return the script of a scene for a page: it mounts what it finds there.
+
+    Raises
+    ------
+    BundleError
+        If the bundle is missing, or older than its sources, and cannot be made.
+    """
+    return f"((python) => {{\n{bundled(name)}}})({said()});\n"
+
+
+def module(name: str) -> str:
+    """Return the module of a widget: the same script, and what shows the scene."""
+    try:
+        script = f"const python = {said(isWidget=True)};\n{bundled(name)}"
+    except BundleError as error:
+        return f"export default {{ render: {_sorry(error)} }};\n"
+    return f"{script}export default {{ render: python.render }};\n"
 
 
 @cache
@@ -60,32 +72,28 @@ def style() -> str:
     return rules + re.sub(r"/\*.*?\*/\n*", "", text, flags=re.DOTALL)
 
 
-@cache
-def page_script() -> str:
-    """
-    Return the script of the built book: it mounts what it finds.
-
-    Comments go, and names inside functions get short, where `minify` is installed.
-    """
-    text = script() + "abstransfer.mountAll();\n"
-    try:
-        import minify
-    except ImportError:
-        return text
-    return minify.string("application/javascript", text)
+def bundled(name: str) -> str:
+    """Return the bundle of a scene, or of its workers; make it first if need be."""
+    if not is_fresh():
+        try:
+            build()
+        except (BundleError, OSError) as error:
+            raise BundleError(
+                f"the scenes must be bundled anew; run: {COMMAND} ({error})"
+            ) from error
+    return (BUNDLES / f"{name}.js").read_text("utf-8")
 
 
-def module(name: str) -> str:
-    """Return the module of a widget: the same script, and what shows one scene."""
-    return f'{script()}export default {{ render: abstransfer.renderer("{name}") }};\n'
+def said(**more) -> str:
+    """Return what Python says to a script, as JSON."""
+    maps = {name: str(read_map(name)) for name in ("source", "target")}
+    said = {"palette": _small_palette(), "mapTexts": maps}
+    return json.dumps({**said, "workerSource": bundled("worker"), **more})
 
 
-def _scripts():
-    """Yield the scripts: the engine, the parts, the scenes, their own parts first."""
-    for folder in (FOLDER / "engine", FOLDER / "ui", FOLDER):
-        paths = [path for path in folder.iterdir() if path.name.endswith(".js")]
-        for path in sorted(paths, key=lambda path: ("_" not in path.name, path.name)):
-            yield path.read_text("utf-8")
+def _sorry(error: BundleError) -> str:
+    """Return a function that says why a scene is not there."""
+    return f"({{ el }}) => {{ el.textContent = {json.dumps(str(error))}; }}"
 
 
 def _small_palette() -> dict:

@@ -1,50 +1,51 @@
 """
 A Sphinx extension that brings the scenes to the built book.
 
-All scenes share one script and one style sheet, made of the files in
-``abstransfer/scenes``; only pages that hold a scene load them.
+A page loads the scripts of the scenes that it holds, and their style sheet.
 """
 
 import gzip
-from importlib.util import find_spec
+import re
 from pathlib import Path
 
 from sphinx.util import logging
 
-from abstransfer.scenes import files as _scene_files
+from abstransfer.scenes import bundle, files
 
 # The theme's scroll spy would read all links of a page, and fail at a link to a moment
 # of a scene: it shall read those of the page's contents, as it means to.
 SPY = """addEventListener("DOMContentLoaded", () => {
   document.body.dataset.bsTarget = "#pst-page-toc-nav";
 });"""
-LIMIT = 150_000  # bytes of script before compression
+LIMIT = 80_000  # bytes of one script before compression
+FOUND = re.compile(r'class="abstransfer-scene" data-scene="(\w+)"')
 logger = logging.getLogger(__name__)
 
 
 def write_files(app, exception):
-    """Write the script and the style, and print what a page with scenes weighs."""
+    """Write the scripts and the style, and print what they weigh."""
     if exception is not None or app.builder.format != "html":
         return
-    folder = Path(app.outdir, "_static")
-    files = {
-        "scenes.js": _scene_files.page_script(),
-        "scenes.css": _scene_files.style(),
-    }
-    for name, text in files.items():
+    folder = Path(app.outdir, "_static", "scenes")
+    folder.mkdir(exist_ok=True)
+    texts = {f"{name}.js": files.page_script(name) for name in bundle.scenes()}
+    texts["scenes.css"] = files.style()
+    for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
         packed = len(gzip.compress(text.encode(), mtime=0))
         logger.info(f"{name}: {len(text.encode()):,} bytes, {packed:,} compressed")
-    if find_spec("minify") and len(files["scenes.js"].encode()) > LIMIT:
-        logger.warning(f"scenes.js has more than {LIMIT:,} bytes")
+        if len(text.encode()) > LIMIT:
+            logger.warning(f"{name} has more than {LIMIT:,} bytes")
 
 
 def load_files(app, pagename, templatename, context, doctree):
-    """Let a page that holds a scene load the script and the style."""
-    if 'class="abstransfer-scene"' in context.get("body", ""):
+    """Let a page load the scripts of its scenes, and the style."""
+    names = sorted(set(FOUND.findall(context.get("body", ""))))
+    for name in names:
         # Before MathJax, for which a reader of formulas can wait.
-        app.add_js_file("scenes.js", loading_method="defer", priority=100)
-        app.add_css_file("scenes.css")
+        app.add_js_file(f"scenes/{name}.js", loading_method="defer", priority=100)
+    if names:
+        app.add_css_file("scenes/scenes.css")
 
 
 def setup(app):

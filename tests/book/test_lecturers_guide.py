@@ -2,14 +2,17 @@
 
 import json
 import re
+import subprocess
+from functools import cache
 
 import pytest
 from support import ROOT
 
 from abstransfer.exercises import all_exercises
+from abstransfer.scenes import bundle
 
 BOOK = ROOT / "book"
-SCENES = ROOT / "abstransfer" / "scenes"
+SPECS = ROOT / "tests" / "scenes" / "js" / "specs.js"
 GUIDE = (BOOK / "lecturers_guide.md").read_text(encoding="utf-8")
 MOMENTS = re.findall(r'<a class="disabled" href="(\w+)\.html#([^"]+)">', GUIDE)
 OPEN = dict(re.findall(r"^\| `(ex-[\w-]+)` \| ([^|]{20,}) \|$", GUIDE, re.MULTILINE))
@@ -21,6 +24,17 @@ def cells_of(page):
 
 def outputs_of(page):
     return " ".join(json.dumps(cell.get("outputs", "")) for cell in cells_of(page))
+
+
+@cache
+def specs():
+    """What the scripts say of the state of each scene."""
+    bundle.build()
+    read = [bundle.find_deno(), "run", "--quiet", "--no-check", "--allow-read", SPECS]
+    told = subprocess.check_output(
+        [*read, *bundle.scenes()], text=True, env=bundle.environment()
+    )
+    return json.loads(told)
 
 
 def page_of(key):
@@ -38,17 +52,18 @@ def test_each_page_has_a_moment_to_show():
 def test_a_moment_is_a_state_of_the_scene_on_its_page(page, moment):
     for part in moment.split("&"):
         scene, name, value = re.fullmatch(r"(\w+)\.(\w+)=(\w[\w.]*)", part).groups()
-        text = "".join(
-            path.read_text(encoding="utf-8")
-            for path in sorted(SCENES.glob(f"{scene}*.js"))
-        )
-        state = re.search(r"^    state: \{(.*?)\},\n", text, re.S | re.M)[1]
-        local = re.search(r"^    local: \[(.*?)\]", text, re.M)[1]
+        spec = specs()[scene]
+        bounds = spec["limits"].get(name)
 
         assert f'data-scene=\\"{scene}\\"' in outputs_of(page)
-        assert re.search(rf"\b{name}: ", state)
-        assert f'"{name}"' not in local
-        assert value[0].isdigit() or re.search(rf'"{value}"|\b{value}: ', text)
+        assert name in spec["state"]
+        assert name not in spec["local"]
+        if isinstance(spec["state"][name], str):
+            assert value in bounds
+        elif isinstance(spec["state"][name], bool):
+            assert value in ("true", "false")
+        else:
+            assert bounds[0] <= float(value) <= bounds[1]
 
 
 def test_the_guide_says_of_each_open_exercise_what_a_good_answer_holds():

@@ -55,7 +55,7 @@ def test_what_is_missing_comes_with_a_remedy(monkeypatch, tmp_path):
     missing = [check for check in doctor.diagnose() if not check.ok]
 
     names = {check.name for check in missing}
-    assert names == {"jupyter kernel", "compiled code", "browser", "node"}
+    assert names == {"jupyter kernel", "compiled code", "browser"}
     assert all(check.remedy for check in missing)
 
 
@@ -66,15 +66,6 @@ def test_an_old_python_is_named(monkeypatch):
     assert not check.ok
     assert check.found == "3.10.2"
     assert "3.11" in check.remedy
-
-
-def test_an_old_node_is_named(monkeypatch):
-    monkeypatch.setattr(doctor.shutil, "which", lambda name: "node")
-    answer = subprocess.CompletedProcess([], 0, stdout="v16.3.0\n")
-    monkeypatch.setattr(doctor.subprocess, "run", lambda *a, **k: answer)
-
-    check = doctor.check_node()
-    assert (check.ok, check.found) == (False, "16.3.0")
 
 
 def test_without_the_package_installed_it_says_how_to_install(monkeypatch):

@@ -25,6 +25,7 @@ PAGES = {
         "scenes.Microscope(start='cost', t=20)",
         "scenes.Microscope(update=lambda q, s, a, r, s_next, alpha, gamma: r)",
     ],
+    "two": ["scenes.Hill()", "scenes.Microscope()", "scenes.Hill(t=9)"],
 }
 
 

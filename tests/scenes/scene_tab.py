@@ -1,17 +1,22 @@
 """A page that holds one scene, opened from a file with the network cut."""
 
+import re
+from functools import cache
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 from support import Visit
 
-from abstransfer.scenes import files as _scene_files
+from abstransfer.scenes import bundle
+from abstransfer.scenes import files as front
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>A scene</title>
 <meta name="viewport" content="width=device-width"><style>{style}</style></head>
-<body><main><h1>A scene</h1>{scene}</main><script>{script}</script></body></html>"""
+<body><main><h1>A scene</h1>{scene}</main>{scripts}</body></html>"""
+PROBE = Path(__file__).parent / "js" / "probe.js"
 FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
 
 # What an act costs a reader's machine, in a measure that all machines agree on: how
@@ -45,7 +50,7 @@ MOVES = """([slider, step]) => [1, 2, 3, 4, 5, 6, 7, 8, 9].map((i) => () => {
 AT_ONCE = """(name) => {
     const div = document.body.appendChild(document.createElement("div"));
     div.className = "abstransfer-scene";
-    const { leave } = abstransfer.mount(div, name);
+    const { leave } = said[name].mount(div);
     const n = div.querySelectorAll(".ab-body *").length;
     leave();
     return [n, div.childNodes.length];
@@ -67,6 +72,11 @@ class SceneTab:
     def settle(self):
         self.page.evaluate(FRAMES)
         return self
+
+    def ask(self, code, *arguments):
+        """Evaluate code that looks at parts of the front end, in `probe`."""
+        self.page.evaluate(probe())
+        return self.page.evaluate(code, *arguments)
 
     def click(self, name):
         self.root.get_by_role("button", name=name).click()
@@ -158,19 +168,43 @@ class SceneTab:
         )
 
 
+def scripts(body):
+    """The scripts of the scenes in a page; what Python said to each is in `said`."""
+    names = sorted(set(re.findall(r'data-scene="(\w+)"', body)))
+    texts = [
+        f"<script>said.{name} = {front.said()};"
+        f"((python) => {{\n{front.bundled(name)}}})(said.{name});</script>"
+        for name in names
+    ]
+    return "<script>const said = {};</script>" + "".join(texts)
+
+
+@cache
+def probe():
+    """A script that puts parts of the front end into the object `probe` of a page."""
+    return (
+        f"((python) => {{\n{bundle.bundle_one(PROBE)}}})({front.said(isWidget=True)})"
+    )
+
+
 @pytest.fixture
 def open_scene(chromium, tmp_path):
-    """Open a page with a scene: ``open_scene(widget, width=400, query="#...")``."""
+    """
+    Open a page with a scene: ``open_scene(widget, width=400, query="#...")``.
+
+    ``first`` is a script that runs before the scene's.
+    """
     contexts = []
 
-    def open_page(widget, query="", width=1440, **options):
+    def open_page(widget, query="", width=1440, first="", **options):
         viewport = {"width": width, "height": 900}
         contexts.append(chromium.new_context(viewport=viewport, **options))
         visit = Visit(contexts[-1], tmp_path)
+        body = widget if isinstance(widget, str) else widget.html()
         html = PAGE.format(
-            style=_scene_files.style(),
-            script=_scene_files.page_script(),
-            scene=widget if isinstance(widget, str) else widget.html(),
+            style=front.style(),
+            scripts=f"<script>{first}</script>{scripts(body)}",
+            scene=body,
         )
         (tmp_path / "scene.html").write_text(html, encoding="utf-8")
         visit.open("scene", query)

@@ -1,16 +1,17 @@
-"""The browser's engine finds what Python finds: golden files, and node's tests."""
+"""The browser's engine finds what Python finds: golden files, and its own tests."""
 
 import math
+import re
 import subprocess
 from pathlib import Path
 
 import pytest
 from golden.write_golden import GOLDEN, as_json, read
-from support import unavailable
 
-from abstransfer.cli.doctor import check_node
+from abstransfer.scenes import bundle
 
-ROOT = Path(__file__).parents[2]
+HERE = Path(__file__).parent
+IMPORT = re.compile(r'^import (?:[^;"]* from )?"([^"]+)";$', re.MULTILINE)
 TOLERANCE = 1e-10  # of values; another processor may round them in another way
 
 
@@ -49,24 +50,29 @@ def test_a_changed_number_is_noticed():
         assert list(differences({"a": other}, golden))
 
 
-def test_the_engine_in_javascript_finds_the_same():
-    node = check_node()
-    if not node.ok:
-        unavailable(node.remedy)
-    folder = Path(__file__).parent / "js"
-    tests = sorted(str(path) for path in folder.glob("*.test.mjs"))
+@pytest.mark.parametrize("path", sorted((HERE / "js").glob("*.test.js")), ids=str)
+def test_the_front_end_without_a_page(path):
+    bundle.build()  # a test reads the bundle of the workers
     done = subprocess.run(
-        ["node", "--test", "--test-reporter=tap", *tests],
+        [bundle.find_deno(), "test", "--no-check", "--allow-read", path],
         capture_output=True,
         text=True,
         timeout=300,
+        env=bundle.environment(),
     )
 
     assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-1000:]
-    assert "# pass 0" not in done.stdout, "no test was run"
+    assert re.search(r"ok \| [1-9]\d* passed", done.stdout), "no test was run"
 
 
-def test_the_engine_stays_small():
-    files = (ROOT / "abstransfer" / "scenes" / "engine").glob("*.js")
-
-    assert sum(path.stat().st_size for path in files) < 60_000
+def test_every_script_imports_only_what_is_below_it():
+    order = [["python"], ["engine"], ["ui"], ["parts"]]
+    order.append(bundle.scenes())
+    ranks = {name: rank for rank, names in enumerate(order) for name in names}
+    for path in bundle.sources():
+        place = path.relative_to(bundle.FOLDER)
+        room = place.parts[0].removesuffix(".js")
+        for imported in IMPORT.findall(path.read_text("utf-8")):
+            target = (path.parent / imported).resolve()
+            other = target.relative_to(bundle.FOLDER).parts[0].removesuffix(".js")
+            assert other == room or ranks[other] < ranks[room], f"{place}: {imported}"

@@ -96,9 +96,9 @@ def test_what_pages_are_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
             ballot.root.inner_text()
         )
 
-    marks = ballot.page.evaluate(
+    marks = ballot.ask(
         "[0, 1].map(i => ['source', 'target'].map(name =>"
-        " [abstransfer.PAPER[name].nd, abstransfer.PAPER[name].prob][i]))"
+        " [probe.PAPER[name].nd, probe.PAPER[name].prob][i]))"
     )
     assert marks == [
         [PAPER[name][page] for name in ("source", "target")] for page in ("nd", "prob")
@@ -236,7 +236,7 @@ def test_it_is_there_at_once_and_starts_as_python_does(ballot):
 
     assert n > SMALL.n_cells
     assert left == 0
-    assert ballot.page.evaluate("abstransfer.scenes.ballot.state") == Ballot.defaults()
+    assert ballot.page.evaluate("said.ballot.spec.state") == Ballot.defaults()
 
 
 def test_a_tiny_and_a_huge_building(show):

@@ -20,15 +20,14 @@ from abstransfer.scenes import Filling
 RESULTS = read_results("goal-target")
 READINGS = {key: read_along(tracks(RESULTS, key)) for key in KEYS}
 READ = """async key => {
-    const at = abstransfer;
     const host = document.querySelector(".abstransfer-scene");
     const { data } = JSON.parse(host.dataset.options);
     const tracks = [];
     for (let k = 0; k < 5; k++) {
         const mine = [];
         for (let n = 2; n <= 50; n++) {
-            const found = at.filling.findingsOf(data, key, k, n);
-            const verdicts = at.filling.verdictsOf(found, key);
+            const found = probe.findingsOf(data, key, k, n);
+            const verdicts = probe.verdictsOf(found, key);
             verdicts.forEach((v, i) => (mine[i] ??= []).push(v));
         }
         tracks.push(...mine);
@@ -86,9 +85,9 @@ def test_verdicts_are_pythons_life_by_life_in_all_orders(page):
     scene = page()
 
     for key in ("2", "4", SAME):  # a condition, a margin, and many tracks
-        assert scene.page.evaluate(READ, key) == tracks(RESULTS, key)
+        assert scene.ask(READ, key) == tracks(RESULTS, key)
     drawn = np.random.default_rng(0).integers(0, 37, (2000, 37)).ravel()
-    lives = scene.page.evaluate("Array.from(abstransfer.filling.drawn(37))")
+    lives = scene.ask("Array.from(probe.drawn(37))")
     assert lives == drawn.tolist()
 
 

@@ -11,7 +11,7 @@ from traitlets import TraitError
 from abstransfer.builders.deduced import absprob_pi, abstract_gradient
 from abstransfer.scenes.hill.widget import HALL, LAST, RHO, STARTS, Hill, page
 
-LAND = "(abstransfer.land)"
+LAND = "(probe.land)"
 
 
 @pytest.fixture
@@ -80,7 +80,7 @@ def test_the_still_picture_states_the_finding(start):
 @pytest.mark.parametrize("start", STARTS)
 def test_land_slopes_climbs_and_ends_are_pythons(hill, start):
     starts = [(0.3, 0.3), (0.2, 0.6), (0.93, 0.34), (1, 0), (0, 0)]
-    heights, ways, sides, later = hill.page.evaluate(
+    heights, ways, sides, later = hill.ask(
         f"""([start, starts]) => {{
             const {{ heights, climb, sides, LAST }} = {LAND};
             const ends = [];
@@ -112,7 +112,7 @@ def test_land_slopes_climbs_and_ends_are_pythons(hill, start):
 
 
 def test_shades_and_contours_lie_where_the_land_is_as_high(hill):
-    wrong, checked, cuts, labels = hill.page.evaluate(
+    wrong, checked, cuts, labels = hill.ask(
         f"""() => {{
             const {{ heights, region, labels, value, LEVELS, N }} = {LAND};
             const land = heights("both");

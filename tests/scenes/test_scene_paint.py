@@ -298,7 +298,7 @@ def test_nothing_moves_by_itself(show):
 
 
 def test_the_browser_starts_as_python_does(paint):
-    assert paint.page.evaluate("abstransfer.scenes.paint.state") == Paint.defaults()
+    assert paint.page.evaluate("said.paint.spec.state") == Paint.defaults()
 
 
 def test_features_go_by_names_in_python_and_by_bits_in_the_browser():

@@ -167,9 +167,9 @@ def test_bets_arrows_and_the_closing_sentence(show):
 
 def test_arrows_lead_where_the_best_actions_may(show):
     scene = opened(show)
-    found = scene.page.evaluate(
+    found = scene.ask(
         """([task, success]) => {
-            const { waves, parseMap, mapTexts } = abstransfer;
+            const { waves, parseMap, mapTexts } = probe;
             const work = waves.ripple(parseMap(mapTexts.source), task, success);
             let step;
             do step = work.next(); while (!step.done);
@@ -282,18 +282,15 @@ def test_nothing_is_swept_after_leaving(show):
     scene = opened(show)
     turns = scene.page.evaluate(
         """async (map) => {
-            const { waves, mount } = abstransfer;
-            const { ripple } = waves;
-            let turns = 0;
-            waves.ripple = function* (...all) {
-                const work = ripple(...all);
-                for (let step; !(step = work.next()).done; yield) turns++;
-            };
+            const later = window.setTimeout;
+            let turns = 0; // each slice of sweeping asks for the next
+            window.setTimeout = (...all) => (turns++, later(...all));
             const div = document.body.appendChild(document.createElement("div"));
-            const { leave } = mount(div, "ripple", { map }, { url: false });
+            const { leave } = said.ripple.mount(div, { map }, { url: false });
+            await new Promise((f) => later(f, 100));
             leave();
             const before = turns;
-            await new Promise((f) => setTimeout(f, 200));
+            await new Promise((f) => later(f, 200));
             return [before, turns];
         }""",
         room(60),

@@ -74,8 +74,7 @@ def test_table_1_of_an_edited_map_is_pythons(studio):
 
 def test_the_papers_counts_and_numbers_are_marked(studio):
     rows = solved(studio)
-    page = studio.page
-    for building, counts in page.evaluate("abstransfer.PAPER").items():
+    for building, counts in studio.ask("probe.PAPER").items():
         for row in ROWS:
             assert counts[row] == PAPER[building][row]
     mark = studio.root.get_by_text("Cells, rooms and goals as in the paper's source")
@@ -165,17 +164,16 @@ ARROWS = ("ArrowUp", "ArrowRight", "ArrowDown", "ArrowLeft")
 WAY = """() => {  // the best way from the cell that has the focus
     const name = document.activeElement.getAttribute("aria-label");
     const [row, column] = name.match(/\\d+/g).map(Number);
-    const map = abstransfer.parseMap(abstransfer.mapTexts.source);
-    const tasks = abstransfer.navigationTasks(map, { keep: [7] });
-    const v = abstransfer.optimalValues(tasks);
+    const map = probe.parseMap(probe.mapTexts.source);
+    const tasks = probe.navigationTasks(map, { keep: [7] });
+    const v = probe.optimalValues(tasks);
     const cell = (row - 1) * map.width + column - 1;
     const ways = [0, 1, 2, 3].map((d) => map.neighbors[4 * cell + d]);
-    return abstransfer.argmax(ways.map((other) => (other < 0 ? -1e9 : v[other])));
+    return probe.argmax(ways.map((other) => (other < 0 ? -1e9 : v[other])));
 }"""
 
 
 def test_by_keyboard_alone_to_the_goal_and_a_new_door(studio):
-    page = studio.page
     studio.root.get_by_role("radio", name="Walk").focus()
     for _ in range(6):
         studio.press("Tab")
@@ -185,7 +183,7 @@ def test_by_keyboard_alone_to_the_goal_and_a_new_door(studio):
     for _ in range(100):
         if closing.inner_text().startswith("The goal, after"):
             break
-        studio.press(ARROWS[page.evaluate(WAY)])
+        studio.press(ARROWS[studio.ask(WAY)])
     closing = studio.closing
     studio.press("3", "Shift+ArrowRight")
 
@@ -399,6 +397,6 @@ def test_python_reads_the_drawing_and_draws():
 
 
 def test_the_browser_starts_as_python_does(studio):
-    state = studio.page.evaluate("abstransfer.scenes.studio.state")
+    state = studio.page.evaluate("said.studio.spec.state")
 
     assert state == Studio.defaults()

@@ -6,6 +6,7 @@ from importlib.resources import files
 
 import numpy as np
 import pytest
+from scene_tab import bare, probe
 
 from abstransfer import maps, navigation, scenes
 from abstransfer.learning import q_learning
@@ -102,10 +103,11 @@ def test_every_step_is_the_one_that_python_takes(microscope, start, which):
 
 
 def test_the_engine_takes_the_same_steps_to_the_bit(microscope):
+    microscope.page.evaluate(probe())
     found = microscope.page.evaluate(
         """([text, start]) => {
-            const { take } = abstransfer.microscope;
-            const map = abstransfer.parseMap(text);
+            const { parseMap, take } = probe;
+            const map = parseMap(text);
             const { steps } = take(map, { start, task: 1, luck: 9 }, 300);
             return steps.map(({ s, a, next, reward, before, after }) =>
                 [s, a, next, reward, before, after]);
@@ -257,6 +259,33 @@ def test_a_moment_has_an_address(at_scenes):
     second.page.wait_for_function("!location.hash.includes('microscope.t=')")
 
 
+def test_two_kinds_of_scenes_on_a_page_bring_a_script_each(at_scenes):
+    tab = at_scenes("two", query="#hill.t=20&microscope.t=30&hill-2.t=40")
+    page = tab.page
+    page.wait_for_function("document.querySelectorAll('.ab-live').length === 3")
+    scripts = page.evaluate(
+        "[...document.scripts].map(s => s.src.match(/scenes\\/(\\w+)\\.js/)?.[1])"
+    )
+    ids = page.evaluate("[...document.querySelectorAll('[id^=ab-]')].map(e => e.id)")
+    names = page.evaluate(
+        "[...document.querySelectorAll('[type=radio]')].map(e => e.name)"
+    )
+
+    assert sorted(filter(None, scripts)) == ["hill", "microscope"]
+    assert len(ids) == len({*ids}) == 8
+    assert not {*ids} & {*names}
+    for scene, name, step in (("hill", "Iteration", 20), ("hill-2", "Iteration", 40)):
+        root = page.locator(f"[data-ab-id={scene}]")
+        assert root.get_by_role("slider", name=name).input_value() == str(step)
+    scene = Microscope(tab, 1)
+    assert scene.step == 30
+    scene.slider.fill("31")
+    url = wait_for_url(page, "microscope.t=31")
+    assert "hill.t=20" in url
+    assert "hill-2.t=40" in url
+    assert tab.problems == []
+
+
 @pytest.mark.parametrize(
     "query", ["#microscope.t=abc", "#microscope.t=1e9", "#microscope.start=x", "#a"]
 )
@@ -359,15 +388,15 @@ def test_the_still_picture_is_for_print_and_without_script(at_scenes):
 
 
 LEARN = """() => {
-    const at = abstransfer;
-    at.scene("test", {
+    const at = probe;
+    const spec = {
       title: "A test",
       state: { n: 0 },
       build(scene) {
         const map = at.parseMap(at.mapTexts.target);
         const world = at.makeWorld(at.navigationTasks(map, { reward: "goal" }));
         const axes = { x: { label: "window" }, y: { label: "goals" } };
-        const chart = at.ui.lineChart({ label: "goals", ...axes });
+        const chart = at.lineChart({ label: "goals", ...axes });
         const points = (window.points = []);
         scene.add(chart.node);
         const job = { world, guide: null, rule: {}, seed: 1, steps: 30e6, window: 1e5 };
@@ -376,10 +405,10 @@ LEARN = """() => {
         const curve = { name: "Q-learning", arm: "none", points };
         return () => chart.set({ curves: [curve] });
       },
-    });
+    };
     const div = document.body.appendChild(document.createElement("div"));
     div.className = "abstransfer-scene";
-    window.mounted = at.mount(div, "test");
+    window.mounted = at.mount(div, "test", spec);
 }"""
 
 
@@ -393,6 +422,7 @@ def wait_until_no_worker(page):
 
 def test_curves_grow_and_leaving_stops_the_worker(at_scenes):
     tab = at_scenes()
+    tab.page.evaluate(probe())
     tab.page.evaluate(LEARN)
     tab.page.wait_for_function("points.length > 3")
     tab.page.evaluate(FRAMES)
@@ -412,15 +442,14 @@ def test_curves_grow_and_leaving_stops_the_worker(at_scenes):
     assert tab.problems == []
 
 
-def test_the_state_of_a_scene_starts_as_in_python(microscope):
-    specs = microscope.page.evaluate(
-        "Object.entries(abstransfer.scenes).map(([name, spec]) => [name, spec.state])"
-    )
+def test_all_scenes_live_on_one_page_and_start_as_in_python(open_scene):
     kinds = [getattr(scenes, name) for name in scenes.__all__]
-    by_name = {kind.scene: kind for kind in kinds if hasattr(kind, "scene")}
-    del by_name[""]
+    kinds = [kind for kind in kinds if getattr(kind, "scene", "")]
+    tab = open_scene("".join(bare(kind) for kind in kinds))
+    states = tab.page.evaluate(
+        "Object.entries(said).map(([name, { spec }]) => [name, spec.state])"
+    )
 
-    assert "microscope" in by_name
-    assert {name: kind.defaults() for name, kind in by_name.items()} == {
-        name: state for name, state in specs if name in by_name
-    }
+    assert dict(states) == {kind.scene: kind.defaults() for kind in kinds}
+    assert tab.page.locator(".ab-live").count() == len(kinds) == 12
+    assert tab.problems == []

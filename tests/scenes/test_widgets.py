@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 
 import numpy as np
 import pytest
@@ -12,8 +11,8 @@ from support import ROOT
 
 from abstransfer import maps, scenes
 from abstransfer.learning import q_learning
-from abstransfer.scenes import Microscope
-from abstransfer.scenes import files as _scene_files
+from abstransfer.scenes import Microscope, bundle
+from abstransfer.scenes import files as front
 from abstransfer.scenes.base import VIEW
 from abstransfer.scenes.microscope.widget import STARTS, STEPS, own_trace
 from abstransfer.scenes.parts.stills import building_svg
@@ -67,7 +66,7 @@ def test_a_scene_refuses_what_it_does_not_have(kind):
 def test_a_widget_brings_all_it_needs(kind):
     state = kind().get_state()
 
-    assert state["_esm"] == _scene_files.module(kind.scene)
+    assert state["_esm"] == front.module(kind.scene)
     assert not re.search(r"^\s*import\b", state["_esm"], re.MULTILINE)
     hosts = set(re.findall(r"https?://[^/\s\"']*", state["_esm"]))
     assert hosts == {"http://www.w3.org"}, "a name of SVG, and nothing is loaded"
@@ -77,29 +76,55 @@ def test_a_widget_brings_all_it_needs(kind):
 # The front end
 
 
-def test_the_script_is_valid(tmp_path):
-    for name, text in (
-        ("page.js", _scene_files.page_script()),
-        ("widget.mjs", _scene_files.module("microscope")),
-    ):
-        (tmp_path / name).write_text(text)
-        subprocess.run(["node", "--check", tmp_path / name], check=True)
+def test_without_bundles_a_widget_says_what_to_do(monkeypatch):
+    def build():
+        raise bundle.BundleError("there is no deno")
+
+    monkeypatch.setattr(front, "is_fresh", lambda: False)
+    monkeypatch.setattr(front, "build", build)
+
+    script = scenes.Race().get_state()["_esm"]
+    assert "run: python -m abstransfer.scenes.bundle (there is no deno)" in script
+    assert "export default { render:" in script
+    with pytest.raises(bundle.BundleError, match="must be bundled anew"):
+        front.page_script("race")
 
 
-def test_files_of_the_front_end_are_short():
-    for path in _scene_files.FOLDER.glob("**/*.js"):
-        assert len(path.read_text().split("\n")) <= 300, path.name
+def test_a_changed_source_is_bundled_anew_once(monkeypatch, tmp_path):
+    monkeypatch.setattr(bundle, "FOLDER", tmp_path)
+    monkeypatch.setattr(bundle, "BUNDLES", tmp_path / "_bundles")
+    monkeypatch.setattr(bundle, "WORKER", tmp_path / "worker.js")
+    (tmp_path / "one").mkdir()
+    source = tmp_path / "one" / "one.js"
+    source.write_text("console.log(1 + python.n);")
+    (tmp_path / "worker.js").write_text("self.onmessage = () => {};")
+
+    assert bundle.scenes() == ["one"]
+    assert bundle.build()
+    assert not bundle.build()
+    source.write_text("console.log(2 + python.n);")
+    assert not bundle.is_fresh()
+    assert bundle.build()
+    assert "2+python.n" in (tmp_path / "_bundles" / "one.js").read_text()
+
+
+def test_a_script_that_cannot_be_bundled_is_named(tmp_path):
+    wrong = tmp_path / "wrong.js"
+    wrong.write_text("import { x } from './nowhere.js';")
+
+    with pytest.raises(bundle.BundleError, match="nowhere.js"):
+        bundle.bundle_one(wrong)
 
 
 def test_every_colour_that_is_used_is_defined():
     used = set()
-    for path in _scene_files.FOLDER.glob("**/*.*s*"):
+    for path in [*bundle.sources(), *bundle.FOLDER.glob("**/*.css")]:
         used |= {
             part.split(")")[0].split(",")[0]
             for part in path.read_text().split("var(")[1:]
         }
-    style = _scene_files.style()
-    own = {'--ab-arm-${builder in at.palette.arms ? builder : "none"}'}
+    style = front.style()
+    own = {'--ab-arm-${builder in palette.arms ? builder : "none"}'}
 
     missing = {
         name for name in used - own if f"{name}:" not in style and "$" not in name

@@ -1,90 +1,109 @@
 // Controls, all native: slider, choice, toggle, button.  Each is { node, set }.
 // `bind` gives a scene the same, tied to the values of its state.
 
-(function controls(at) {
-  "use strict";
+import { make, newId } from "./dom.js";
+import { bindBets } from "./texts.js";
+import { timeline } from "./timeline.js";
 
-  const ui = (at.ui ??= {});
-  const make = (...all) => ui.make(...all);
+/** @import { ButtonOptions, Scene } from "../types.d.ts" */
 
-  function slider({ label, min = 0, max = 1, step = 1, format = String, onInput }) {
-    const id = ui.newId();
-    const output = make("output", { for: id });
-    const input = make("input", {
-      id, type: "range", min, max, step,
-      oninput: () => {
-        tell();
-        onInput(input.valueAsNumber);
-      },
-    });
-    function tell() {
-      const text = format(input.valueAsNumber);
-      output.textContent = text;
-      input.setAttribute("aria-valuetext", text);
-    }
-    function set(value, bounds) {
-      if (bounds) [input.min, input.max] = bounds;
-      input.value = value;
+/** @param {{ label: string, min?: number, max?: number, step?: number, format?: (x: number) => string, onInput: (x: number) => void }} options */
+export function slider({ label, min = 0, max = 1, step = 1, format = String, onInput }) {
+  const id = newId();
+  const output = make("output", { for: id });
+  const input = make("input", {
+    id,
+    type: "range",
+    min,
+    max,
+    step,
+    oninput: () => {
       tell();
-    }
-    const title = make("label", { for: id }, label);
-    return { node: make("div", { class: "ab-slider" }, title, input, output), input, set };
+      onInput(input.valueAsNumber);
+    },
+  });
+  function tell() {
+    const text = format(input.valueAsNumber);
+    output.textContent = text;
+    input.setAttribute("aria-valuetext", text);
   }
+  function set(value, bounds) {
+    if (bounds) [input.min, input.max] = bounds;
+    input.value = value;
+    tell();
+  }
+  const title = make("label", { for: id }, label);
+  return { node: make("div", { class: "ab-slider" }, title, input, output), input, set };
+}
 
-  // Radio buttons side by side; `options` is { value: text }.
-  function choice({ label, options, onInput }) {
-    const name = ui.newId();
-    const inputs = Object.entries(options).map(([value, text]) => {
-      const input = make("input", {
-        type: "radio", name, value, onchange: () => onInput(value),
-      });
-      return [input, make("label", {}, input, make("span", {}, text))];
+/**
+ * Radio buttons side by side; `options` is { value: text }.
+ *
+ * @param {{ label: string, options: Record<string, string>, onInput: (value: string) => void }} options
+ */
+export function choice({ label, options, onInput }) {
+  const name = newId();
+  const inputs = Object.entries(options).map(([value, text]) => {
+    const input = make("input", {
+      type: "radio",
+      name,
+      value,
+      onchange: () => onInput(value),
     });
-    const node = make(
-      "fieldset",
-      { class: "ab-choice" },
-      make("legend", {}, label),
-      make("div", { class: "ab-segments" }, inputs.map(([, node]) => node)),
-    );
-    const set = (value) => inputs.forEach(([input]) => (input.checked = input.value === value));
-    return { node, set };
-  }
+    return [input, make("label", {}, input, make("span", {}, text))];
+  });
+  const node = make(
+    "fieldset",
+    { class: "ab-choice" },
+    make("legend", {}, label),
+    make("div", { class: "ab-segments" }, inputs.map(([, node]) => node)),
+  );
+  const set = (value) => inputs.forEach(([input]) => (input.checked = input.value === value));
+  return { node, set };
+}
 
-  function toggle({ label, onInput }) {
-    const input = make("input", { type: "checkbox", onchange: () => onInput(input.checked) });
-    const node = make("label", { class: "ab-toggle" }, input, make("span", {}, label));
-    return { node, set: (value) => (input.checked = value) };
-  }
+/** @param {{ label: string, onInput: (is: boolean) => void }} options */
+export function toggle({ label, onInput }) {
+  const input = make("input", { type: "checkbox", onchange: () => onInput(input.checked) });
+  const node = make("label", { class: "ab-toggle" }, input, make("span", {}, label));
+  return { node, set: (value) => (input.checked = value) };
+}
 
-  function button(text, act, { primary = false, label, title } = {}) {
-    const node = make("button", {
-      type: "button", class: primary ? "ab-button ab-primary" : "ab-button",
-      "aria-label": label, title: title ?? label, onclick: act,
-    }, text);
-    return {
-      node,
-      set: (next) => (node.textContent = next),
-      rename: (name) => node.setAttribute("aria-label", (node.title = name)),
-      enable: (can) => node.toggleAttribute("disabled", !can),
-    };
-  }
+/**
+ * @param {any} text or nodes
+ * @param {() => void} act
+ * @param {ButtonOptions} options
+ */
+export function button(text, act, { primary = false, label, title } = {}) {
+  const node = make("button", {
+    type: "button",
+    class: primary ? "ab-button ab-primary" : "ab-button",
+    "aria-label": label,
+    title: title ?? label,
+    onclick: act,
+  }, text);
+  return {
+    node,
+    set: (next) => (node.textContent = next),
+    rename: (name) => node.setAttribute("aria-label", node.title = name),
+    enable: (can) => node.toggleAttribute("disabled", !can),
+  };
+}
 
-  function bind(scene) {
-    const tied = (make_) => (name, options) => {
-      const part = make_({ ...options, onInput: (value) => scene.set({ [name]: value }) });
-      scene.control(name, part.set);
-      return part.node;
-    };
-    scene.slider = (name, options) => {
-      const [min, max] = scene.limits[name];
-      return tied(slider)(name, { min, max, ...options });
-    };
-    scene.choice = tied(choice);
-    scene.toggle = tied(toggle);
-    scene.button = (text, act, options) => button(text, act, options).node;
-    scene.timeline = (name, options) => ui.timeline(scene, name, options);
-    ui.bindBets(scene);
-  }
-
-  Object.assign(ui, { slider, choice, toggle, button, bind });
-})((globalThis.abstransfer ??= {}));
+/** @param {Scene} scene */
+export function bind(scene) {
+  const tied = (make_) => (name, options) => {
+    const part = make_({ ...options, onInput: (value) => scene.set({ [name]: value }) });
+    scene.control(name, part.set);
+    return part.node;
+  };
+  scene.slider = (name, options) => {
+    const [min, max] = scene.limits[name];
+    return tied(slider)(name, { min, max, ...options });
+  };
+  scene.choice = tied(choice);
+  scene.toggle = tied(toggle);
+  scene.button = (text, act, options) => button(text, act, options).node;
+  scene.timeline = (name, options) => timeline(scene, name, options);
+  bindBets(scene);
+}

@@ -1,103 +1,138 @@
 // Small things that all parts use: elements, numbers as text, and the look of arms.
 
-(function dom(at) {
-  "use strict";
+import { palette } from "../python.js";
 
-  const SVG = "http://www.w3.org/2000/svg";
+const SVG = "http://www.w3.org/2000/svg";
 
-  function filled(node, attributes, children) {
-    for (const [name, value] of Object.entries(attributes ?? {})) {
-      if (value === null || value === undefined || value === false) continue;
-      if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-      else node.setAttribute(name, value === true ? "" : value);
-    }
-    node.append(...children.flat().filter((child) => child || child === 0));
-    return node;
+function filled(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes ?? {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value === true ? "" : value);
   }
+  node.append(...children.flat().filter((child) => child || child === 0));
+  return node;
+}
 
-  // make("p", { class: "x", onclick: act }, "text", node): false children are left out.
-  const make = (tag, attributes, ...children) =>
-    filled(document.createElement(tag), attributes, children);
-  const drawn = (tag, attributes, ...children) =>
-    filled(document.createElementNS(SVG, tag), attributes, children);
+/**
+ * make("p", { class: "x", onclick: act }, "text", node): false children are left out.
+ *
+ * @param {string} tag
+ * @param {Record<string, any>} [attributes]
+ * @param {...any} children
+ * @returns {any} an HTML element
+ */
+export const make = (tag, attributes, ...children) =>
+  filled(document.createElement(tag), attributes, children);
+/**
+ * @param {string} tag
+ * @param {Record<string, any>} [attributes]
+ * @param {...any} children
+ * @returns {any} an SVG element
+ */
+export const drawn = (tag, attributes, ...children) =>
+  filled(document.createElementNS(SVG, tag), attributes, children);
 
-  // Counted on the shared object: in a notebook each scene brings these scripts anew.
-  const newId = () => `ab-${(at.lastId = (at.lastId ?? 0) + 1)}`;
+// Counted for the whole page: each scene brings these lines anew.
+const LAST_ID = Symbol.for("abstransfer: the last id");
+export const newId = () => `ab-${(globalThis[LAST_ID] = (globalThis[LAST_ID] ?? 0) + 1)}`;
 
-  // ---- text
+// ---- text
 
-  // With a true minus sign, as Python's figures print it.
-  function number(x, digits = 1) {
-    const text = x.toFixed(digits);
-    return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
-  }
-  const count = (n) => Math.round(n).toLocaleString("en-US").replace("-", "−");
-  const millions = (n) => `${count(n / 1e5) / 10} M`;
-  const plural = (n, noun) => `${count(n)} ${noun}${n === 1 ? "" : "s"}`;
-  const list = (words) =>
-    words.length < 2
-      ? words.join("")
-      : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
-  const place = ({ width }, cell) =>
-    `row ${Math.floor(cell / width) + 1}, column ${(cell % width) + 1}`;
+/**
+ * With a true minus sign, as Python's figures print it.
+ *
+ * @param {number} x
+ * @param {number} digits
+ */
+export function number(x, digits = 1) {
+  const text = x.toFixed(digits);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+/** @param {number} n */
+export const count = (n) => Math.round(n).toLocaleString("en-US").replace("-", "−");
+/** @param {number} n */
+export const millions = (n) => `${Number(count(n / 1e5)) / 10} M`;
+/**
+ * @param {number} n
+ * @param {string} noun
+ */
+export const plural = (n, noun) => `${count(n)} ${noun}${n === 1 ? "" : "s"}`;
+/**
+ * @param {readonly string[]} words
+ * @returns {string}
+ */
+export const list = (words) =>
+  words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
+/**
+ * @param {{ width: number }} map
+ * @param {number} cell
+ */
+export const place = ({ width }, cell) =>
+  `row ${Math.floor(cell / width) + 1}, column ${(cell % width) + 1}`;
 
-  // ---- the look of an arm: a builder, with or without a strategy ("nd", "nd-soft")
+// ---- the look of an arm: a builder, with or without a strategy ("nd", "nd-soft")
 
-  function armStyle(arm) {
-    const [, builder, strategy] = /^(.*?)(?:[ _-](hard|soft))?$/.exec(arm ?? "none");
-    const look = at.palette.arms[builder] ?? { name: arm, marker: "circle" };
-    const line = at.palette.strategies[strategy ?? "hard"];
-    return {
-      name: look.name + (strategy ? ` ${strategy}` : ""),
-      color: `var(--ab-arm-${builder in at.palette.arms ? builder : "none"})`,
-      marker: look.marker,
-      dash: line.dash.join(" "),
-      isFilled: line.filled,
-    };
-  }
-
-  const polygon = (n, inner = 1, turn = 0) =>
-    Array.from({ length: n }, (_, i) => {
-      const r = i % 2 ? inner : 1;
-      const angle = Math.PI * ((2 * i) / n + turn - 0.5);
-      return `${(r * Math.cos(angle)).toFixed(2)},${(r * Math.sin(angle)).toFixed(2)}`;
-    }).join("L");
-  const SHAPES = {
-    square: "M-.85-.85H.85V.85H-.85Z",
-    triangle: `M${polygon(3)}Z`,
-    diamond: `M${polygon(4)}Z`,
-    star: `M${polygon(10, 0.45)}Z`,
-    cross: "M-1-.6L-.6-1 0-.4.6-1 1-.6.4 0 1 .6.6 1 0 .4-.6 1-1 .6-.4 0Z",
-    plus: "M-.3-1H.3V-.3H1V.3H.3V1H-.3V.3H-1V-.3H-.3Z",
-    circle: "M-.9 0A.9.9 0 1 1 .9 0 .9.9 0 1 1-.9 0Z",
+/** @param {string} [arm] */
+export function armStyle(arm) {
+  const [, builder, strategy] = /^(.*?)(?:[ _-](hard|soft))?$/.exec(arm ?? "none");
+  const look = palette.arms[builder] ?? { name: arm, marker: "circle" };
+  const line = palette.strategies[strategy ?? "hard"];
+  return {
+    name: look.name + (strategy ? ` ${strategy}` : ""),
+    color: `var(--ab-arm-${builder in palette.arms ? builder : "none"})`,
+    marker: look.marker,
+    dash: line.dash.join(" "),
+    isFilled: line.filled,
   };
+}
 
-  // The mark of an arm at (x, y), `size` from its middle to its rim.
-  function marker(arm, x, y, size) {
-    const { marker: kind, color, isFilled } = armStyle(arm);
-    return drawn("path", {
-      d: SHAPES[kind],
-      transform: `translate(${x} ${y}) scale(${size})`,
-      style: `fill:${isFilled ? color : "var(--ab-ground)"};stroke:${color}`,
-      class: "ab-marker",
-    });
-  }
+const polygon = (n, inner = 1, turn = 0) =>
+  Array.from({ length: n }, (_, i) => {
+    const r = i % 2 ? inner : 1;
+    const angle = Math.PI * ((2 * i) / n + turn - 0.5);
+    return `${(r * Math.cos(angle)).toFixed(2)},${(r * Math.sin(angle)).toFixed(2)}`;
+  }).join("L");
+const SHAPES = {
+  square: "M-.85-.85H.85V.85H-.85Z",
+  triangle: `M${polygon(3)}Z`,
+  diamond: `M${polygon(4)}Z`,
+  star: `M${polygon(10, 0.45)}Z`,
+  cross: "M-1-.6L-.6-1 0-.4.6-1 1-.6.4 0 1 .6.6 1 0 .4-.6 1-1 .6-.4 0Z",
+  plus: "M-.3-1H.3V-.3H1V.3H.3V1H-.3V.3H-1V-.3H-.3Z",
+  circle: "M-.9 0A.9.9 0 1 1 .9 0 .9.9 0 1 1-.9 0Z",
+};
 
-  // An inline sample of an arm's line and mark, for legends and names.
-  function sample(arm) {
-    const { color, dash } = armStyle(arm);
-    const line = { d: "M0 6H26", style: `stroke:${color}`, "stroke-dasharray": dash };
-    return drawn(
-      "svg",
-      { class: "ab-sample", viewBox: "0 0 26 12", "aria-hidden": "true" },
-      drawn("path", line),
-      marker(arm, 13, 6, 4),
-    );
-  }
-
-  at.ui ??= {};
-  Object.assign(at.ui, {
-    make, drawn, newId, number, count, millions, plural, list, place, armStyle, marker,
-    sample,
+/**
+ * The mark of an arm at (x, y), `size` from its middle to its rim.
+ *
+ * @param {string} arm
+ * @param {number} x
+ * @param {number} y
+ * @param {number} size
+ */
+export function marker(arm, x, y, size) {
+  const { marker: kind, color, isFilled } = armStyle(arm);
+  return drawn("path", {
+    d: SHAPES[kind],
+    transform: `translate(${x} ${y}) scale(${size})`,
+    style: `fill:${isFilled ? color : "var(--ab-ground)"};stroke:${color}`,
+    class: "ab-marker",
   });
-})((globalThis.abstransfer ??= {}));
+}
+
+/**
+ * An inline sample of an arm's line and mark, for legends and names.
+ *
+ * @param {string} arm
+ */
+export function sample(arm) {
+  const { color, dash } = armStyle(arm);
+  const line = { d: "M0 6H26", style: `stroke:${color}`, "stroke-dasharray": dash };
+  return drawn(
+    "svg",
+    { class: "ab-sample", viewBox: "0 0 26 12", "aria-hidden": "true" },
+    drawn("path", line),
+    marker(arm, 13, 6, 4),
+  );
+}

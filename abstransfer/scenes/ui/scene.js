@@ -1,183 +1,229 @@
-// What a scene is, and how it comes to live in an element.  The contract is in
-// README.md: `abstransfer.scene(name, spec)` registers, `abstransfer.mount` mounts.
+// What a scene is, and how it comes to live in an element; README.md has the contract.
+// The file of a scene ends in `defineScene(name, spec)`.
 
-(function scene(at) {
-  "use strict";
+import { learnAll } from "../engine/workers.js";
+import { bind } from "./controls.js";
+import { make } from "./dom.js";
+import * as address from "./state.js";
+import { dropBets, shell as makeShell } from "./texts.js";
 
-  const { ui } = Object.assign(at, { ui: at.ui ?? {} });
-  const specs = (at.scenes ??= {});
-  const PAUSE = 400; // milliseconds between two changes of the URL
+/** @import { Scene, Spec, State } from "../types.d.ts" */
 
-  const register = (name, spec) => (specs[name] = spec);
+const PAUSE = 400; // milliseconds between two changes of the URL
 
-  // Ids are unique on a page: the second race is "race-2".
-  function idOf(element, name) {
-    const others = [...document.querySelectorAll("[data-ab-id]")]
-      .filter((other) => other !== element)
-      .map((other) => other.dataset.abId);
-    let [id, n] = [name, 1];
-    while (others.includes(id)) id = `${name}-${++n}`;
-    return (element.dataset.abId = id);
+/**
+ * Define the one scene of a bundle: hand its `render` to the widget, or let it live in
+ * the elements of the page that wait for it.
+ *
+ * @param {string} name
+ * @param {Spec} spec
+ */
+export function defineScene(name, spec) {
+  python.spec = spec;
+  python.mount = (element, ...more) => mount(element, name, spec, ...more);
+  python.render = renderer(name, spec);
+  if (!python.isWidget) mountAll(name, spec);
+}
+
+/** @type {(selector: string) => NodeListOf<HTMLElement>} */
+const htmlOf = (selector) => document.querySelectorAll(selector);
+
+/**
+ * Ids are unique on a page: the second race is "race-2".
+ *
+ * @param {HTMLElement} element
+ * @param {string} name
+ */
+function idOf(element, name) {
+  const others = [...htmlOf("[data-ab-id]")]
+    .filter((other) => other !== element)
+    .map((other) => other.dataset.abId);
+  let [id, n] = [name, 1];
+  while (others.includes(id)) id = `${name}-${++n}`;
+  return (element.dataset.abId = id);
+}
+
+/**
+ * Mount a scene.  `onChange(changes)` hears of each change made in the page;
+ * `url: false` keeps the state out of the address.
+ *
+ * @param {HTMLElement} element
+ * @param {string} name
+ * @param {Spec} spec
+ * @param {State} options
+ * @param {{ onChange?: (changes: State) => void, url?: boolean }} more
+ */
+export function mount(element, name, spec, options = {}, { onChange, url = true } = {}) {
+  const id = idOf(element, name);
+  const store = address.makeState(spec, options);
+  const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
+  const controls = []; // { name, show(value, bounds) }
+  const leaving = [];
+  const changed = new Set(Object.keys(spec.state));
+  let [paint, frame, timer, job, isLeft] = [null, null, null, null, false];
+
+  function note(names, isOurs) {
+    if (!names.length) return;
+    names.forEach((each) => changed.add(each));
+    if (isOurs) {
+      onChange?.(Object.fromEntries(names.map((each) => [each, store.values[each]])));
+    }
+    if (url) timer ??= setTimeout(writeUrl, PAUSE);
+    redraw();
   }
-
-  // Mount a scene.  `onChange(changes)` hears of each change made in the page;
-  // `url: false` keeps the state out of the address.
-  function mount(element, name, options = {}, { onChange, url = true } = {}) {
-    const spec = specs[name];
-    if (!spec) throw new Error(`no scene is called ${name}`);
-    const id = idOf(element, name);
-    const store = ui.makeState(spec, options);
-    const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
-    const controls = []; // { name, show(value, bounds) }
-    const leaving = [];
-    const changed = new Set(Object.keys(spec.state));
-    let paint, frame, timer, job, isLeft = false;
-
-    function note(names, isOurs) {
-      if (!names.length) return;
-      names.forEach((each) => changed.add(each));
-      if (isOurs) {
-        onChange?.(Object.fromEntries(names.map((each) => [each, store.values[each]])));
-      }
-      if (url) timer ??= setTimeout(writeUrl, PAUSE);
+  function writeUrl() {
+    timer = clearTimeout(timer) ?? null;
+    if (!isLeft) address.toUrl(id, spec, store);
+  }
+  function redraw() {
+    if (paint && !isLeft) frame ??= requestAnimationFrame(drawNow);
+  }
+  function drawNow() {
+    frame = null;
+    const names = new Set(changed);
+    changed.clear();
+    paint(store.values, names);
+    for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
+  }
+  function stop() {
+    job?.stop();
+    job = null;
+  }
+  // Workers; a new call stops the last one.
+  function learn(jobs, { onWindow, onDone, ...rest }) {
+    stop();
+    const after = (f) => (...found) => (f?.(...found), redraw());
+    const mine = learnAll(jobs, { onWindow: after(onWindow), onDone: after(onDone), ...rest });
+    job = mine;
+    const finished = mine.finished.then((isDone) => {
+      if (job === mine) job = null;
       redraw();
-    }
-    function writeUrl() {
-      timer = clearTimeout(timer) ?? null;
-      if (!isLeft) ui.toUrl(id, spec, store);
-    }
-    function redraw() {
-      if (paint && !isLeft) frame ??= requestAnimationFrame(drawNow);
-    }
-    function drawNow() {
-      frame = null;
-      const names = new Set(changed);
-      changed.clear();
-      paint(store.values, names);
-      for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
-    }
-    function stop() {
-      job?.stop();
-      job = null;
-    }
-    // Workers; a new call stops the last one.
-    function learn(jobs, { onWindow, onDone, ...rest }) {
-      stop();
-      const after = (f) => (...found) => (f?.(...found), redraw());
-      const mine = at.learnAll(jobs, { onWindow: after(onWindow), onDone: after(onDone), ...rest });
-      job = mine;
-      const finished = mine.finished.then((isDone) => {
-        if (job === mine) job = null;
-        redraw();
-        return isDone;
-      });
-      return { ...mine, finished };
-    }
+      return isDone;
+    });
+    return { ...mine, finished };
+  }
 
-    const body = ui.make("div", { class: "ab-body" });
-    const me = {
-      id, spec, el: element, learn, stop, redraw,
-      state: store.values,
-      get calm() { return calmQuery.matches; },
-      get isLearning() { return job !== null && job !== undefined; },
-      set: (changes) => note(store.set(changes), true),
-      limit: (of, bounds) => {
-        note(store.limit(of, bounds), true);
-        redraw();
+  const body = make("div", { class: "ab-body" });
+  /** @type {any} */
+  const me = {
+    id,
+    spec,
+    el: element,
+    learn,
+    stop,
+    redraw,
+    state: store.values,
+    get calm() {
+      return calmQuery.matches;
+    },
+    get isLearning() {
+      return job !== null && job !== undefined;
+    },
+    set: (changes) => note(store.set(changes), true),
+    limit: (of, bounds) => {
+      note(store.limit(of, bounds), true);
+      redraw();
+    },
+    limits: store.limits,
+    add: (...nodes) => body.append(...nodes.flat()),
+    row: (...nodes) => make("div", { class: "ab-row" }, ...nodes),
+    onLeave: (f) => leaving.push(f),
+    control: (of, show) => controls.push({ name: of, show }),
+  };
+  function reset() {
+    stop();
+    dropBets(me);
+    note(store.set(store.start), true);
+    me.say("The scene is as it was at the start.");
+  }
+  function fromUrl() {
+    const found = url && address.fromUrl(id, spec);
+    if (found) note(store.set({ ...linkable(store.start), ...found }), true);
+    return found;
+  }
+  const linkable = (values) =>
+    Object.fromEntries(Object.entries(values).filter(([of]) => !spec.local?.includes(of)));
+  function leave() {
+    if (isLeft) return;
+    isLeft = true;
+    stop();
+    leaving.forEach((f) => f());
+    clearTimeout(timer);
+    cancelAnimationFrame(frame);
+    removeEventListener("hashchange", fromUrl);
+    removeEventListener("pagehide", stop);
+    removeEventListener("pageshow", redraw);
+    shell.remove();
+    element.classList.remove("ab-live");
+    delete element.dataset.abId;
+  }
+
+  const shell = makeShell(me, body, reset);
+  bind(me);
+  paint = spec.build(me);
+  const linked = fromUrl();
+  element.append(shell);
+  drawNow();
+  element.classList.add("ab-live"); // hides the still picture, but in print
+  addEventListener("hashchange", fromUrl);
+  addEventListener("pagehide", stop);
+  addEventListener("pageshow", redraw);
+  if (linked) element.scrollIntoView();
+  return { scene: me, set: (changes) => note(store.set(changes), false), reset, leave };
+}
+
+/**
+ * @param {string} name
+ * @param {Spec} spec
+ */
+function mountAll(name, spec) {
+  const waiting = `.abstransfer-scene[data-scene="${name}"]:not(.ab-live)`;
+  for (const element of htmlOf(waiting)) {
+    try {
+      mount(element, name, spec, JSON.parse(element.dataset.options ?? "{}"));
+    } catch (error) {
+      console.error(error); // the still picture stays
+    }
+  }
+}
+
+/**
+ * What a widget's module exports: traits and state under the same names.
+ *
+ * @param {string} name
+ * @param {Spec} spec
+ */
+function renderer(name, spec) {
+  return function render({ model, el }) {
+    // JupyterLab takes arrow keys for commands to its cells, unless the very element
+    // that has the focus tells it not to.
+    el.addEventListener("focusin", ({ target }) => {
+      target.dataset.lmSuppressShortcuts = "true";
+    });
+    const names = Object.keys(spec.state);
+    const host = make("div", { class: "abstransfer-scene" });
+    el.append(host);
+    const options = Object.fromEntries(names.map((each) => [each, model.get(each)]));
+    let timer = null;
+    const send = () => {
+      timer = null;
+      model.save_changes();
+    };
+    const mounted = mount(host, name, spec, options, {
+      url: false,
+      onChange(changes) {
+        for (const [each, value] of Object.entries(changes)) model.set(each, value);
+        timer ??= setTimeout(send, 100);
       },
-      limits: store.limits,
-      add: (...nodes) => body.append(...nodes.flat()),
-      row: (...nodes) => ui.make("div", { class: "ab-row" }, ...nodes),
-      onLeave: (f) => leaving.push(f),
-      control: (of, show) => controls.push({ name: of, show }),
+    });
+    const hear = names.map((each) => {
+      const tell = () => mounted.set({ [each]: model.get(each) });
+      model.on(`change:${each}`, tell);
+      return () => model.off(`change:${each}`, tell);
+    });
+    return () => {
+      hear.forEach((forget) => forget());
+      mounted.leave();
     };
-    function reset() {
-      stop();
-      ui.dropBets(me);
-      note(store.set(store.start), true);
-      me.say("The scene is as it was at the start.");
-    }
-    function fromUrl() {
-      const found = url && ui.fromUrl(id, spec);
-      if (found) note(store.set({ ...linkable(store.start), ...found }), true);
-      return found;
-    }
-    const linkable = (values) =>
-      Object.fromEntries(Object.entries(values).filter(([of]) => !spec.local?.includes(of)));
-    function leave() {
-      if (isLeft) return;
-      isLeft = true;
-      stop();
-      leaving.forEach((f) => f());
-      clearTimeout(timer);
-      cancelAnimationFrame(frame);
-      removeEventListener("hashchange", fromUrl);
-      removeEventListener("pagehide", stop);
-      removeEventListener("pageshow", redraw);
-      shell.remove();
-      element.classList.remove("ab-live");
-      delete element.dataset.abId;
-    }
-
-    const shell = ui.shell(me, body, reset);
-    ui.bind(me);
-    paint = spec.build(me);
-    const linked = fromUrl();
-    element.append(shell);
-    drawNow();
-    element.classList.add("ab-live"); // hides the still picture, but in print
-    addEventListener("hashchange", fromUrl);
-    addEventListener("pagehide", stop);
-    addEventListener("pageshow", redraw);
-    if (linked) element.scrollIntoView();
-    return { scene: me, set: (changes) => note(store.set(changes), false), reset, leave };
-  }
-
-  function mountAll(root = document) {
-    for (const element of root.querySelectorAll(".abstransfer-scene:not(.ab-live)")) {
-      try {
-        mount(element, element.dataset.scene, JSON.parse(element.dataset.options ?? "{}"));
-      } catch (error) {
-        console.error(error); // the still picture stays
-      }
-    }
-  }
-
-  // What a widget's module exports: traits and state under the same names.
-  function renderer(name) {
-    return function render({ model, el }) {
-      // JupyterLab takes arrow keys for commands to its cells, unless the very element
-      // that has the focus tells it not to.
-      el.addEventListener("focusin", ({ target }) => {
-        target.dataset.lmSuppressShortcuts = "true";
-      });
-      const names = Object.keys(specs[name].state);
-      const host = ui.make("div", { class: "abstransfer-scene" });
-      el.append(host);
-      const options = Object.fromEntries(names.map((each) => [each, model.get(each)]));
-      let timer = null;
-      const send = () => {
-        timer = null;
-        model.save_changes();
-      };
-      const mounted = mount(host, name, options, {
-        url: false,
-        onChange(changes) {
-          for (const [each, value] of Object.entries(changes)) model.set(each, value);
-          timer ??= setTimeout(send, 100);
-        },
-      });
-      const hear = names.map((each) => {
-        const tell = () => mounted.set({ [each]: model.get(each) });
-        model.on(`change:${each}`, tell);
-        return () => model.off(`change:${each}`, tell);
-      });
-      return () => {
-        hear.forEach((forget) => forget());
-        mounted.leave();
-      };
-    };
-  }
-
-  Object.assign(at, { scene: register, mount, mountAll, renderer });
-})((globalThis.abstransfer ??= {}));
+  };
+}

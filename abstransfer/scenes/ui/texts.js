@@ -1,116 +1,127 @@
 // What a scene says: the frame around it, the live region, the closing sentence, the
 // table of its numbers, and bets.
 
-(function texts(at) {
-  "use strict";
+import { button } from "./controls.js";
+import { make } from "./dom.js";
+import { kept } from "./state.js";
 
-  const ui = (at.ui ??= {});
-  const make = (...all) => ui.make(...all);
-  const PAUSE = 1000; // milliseconds between two sentences
+/** @import { Scene } from "../types.d.ts" */
 
-  // The frame: a group with a name, the body, and what all scenes end in.
-  function shell(scene, body, reset) {
-    const live = make("p", { class: "ab-hidden", role: "status", "aria-live": "polite" });
-    const closing = make("p", { class: "ab-closing", hidden: true });
-    const table = make("div", { class: "ab-scroll", tabindex: 0, role: "region", "aria-label": "Numbers" });
-    const twin = make(
-      "details",
-      { class: "ab-twin", ontoggle: () => fillTwin() },
-      make("summary", {}, "The numbers behind the picture"),
-      table,
-    );
-    let rows = null;
-    let next = null;
-    let timer = null;
-    let told = "";
+const PAUSE = 1000; // milliseconds between two sentences
 
-    function speak() {
-      timer = next === null ? null : setTimeout(speak, PAUSE);
-      if (next !== null) live.textContent = next;
-      next = null;
-    }
-    // One sentence a second at most; the last one wins.
-    scene.say = (sentence) => {
-      next = sentence;
-      timer ??= setTimeout(speak, 50);
-    };
-    scene.onLeave(() => clearTimeout(timer));
+/**
+ * The frame: a group with a name, the body, and what all scenes end in.
+ *
+ * @param {Scene} scene
+ * @param {HTMLElement} body
+ * @param {() => void} reset
+ */
+export function shell(scene, body, reset) {
+  const live = make("p", { class: "ab-hidden", role: "status", "aria-live": "polite" });
+  const closing = make("p", { class: "ab-closing", hidden: true });
+  const table = make("div", {
+    class: "ab-scroll",
+    tabindex: 0,
+    role: "region",
+    "aria-label": "Numbers",
+  });
+  const twin = make(
+    "details",
+    { class: "ab-twin", ontoggle: () => fillTwin() },
+    make("summary", {}, "The numbers behind the picture"),
+    table,
+  );
+  let rows = null;
+  let next = null;
+  let timer = null;
+  let told = "";
 
-    scene.close = (sentence) => {
-      const text = sentence || "";
-      if (text === told) return;
-      told = text;
-      closing.hidden = !text;
-      closing.textContent = text;
-      if (text) scene.say(text);
-    };
-
-    function fillTwin() {
-      if (!twin.open || !rows) return;
-      const { caption, head, rows: lines } = rows();
-      const cells = (tag, line) => line.map((text) => make(tag, {}, `${text}`));
-      table.replaceChildren(
-        make(
-          "table",
-          {},
-          make("caption", {}, caption),
-          make("thead", {}, make("tr", {}, head.map((text) => make("th", { scope: "col" }, text)))),
-          make(
-            "tbody",
-            {},
-            lines.map(([first, ...rest]) =>
-              make("tr", {}, make("th", { scope: "row" }, `${first}`), cells("td", rest)),
-            ),
-          ),
-        ),
-      );
-    }
-    scene.twin = (f) => {
-      rows = f;
-      fillTwin();
-    };
-
-    const foot = make("div", { class: "ab-row ab-foot" }, ui.button("Reset", reset).node);
-    return make(
-      "div",
-      { class: "ab-scene", role: "group", "aria-label": `Scene: ${scene.spec.title}` },
-      body,
-      closing,
-      foot,
-      twin,
-      live,
-    );
+  function speak() {
+    timer = next === null ? null : setTimeout(speak, PAUSE);
+    if (next !== null) live.textContent = next;
+    next = null;
   }
+  // One sentence a second at most; the last one wins.
+  scene.say = (sentence) => {
+    next = sentence;
+    timer ??= setTimeout(speak, 50);
+  };
+  scene.onLeave(() => clearTimeout(timer));
 
-  // ---- bets: kept in this tab, told to nobody
-
-  const key = (scene, name) => `abstransfer ${location.pathname} ${scene.id}.${name}`;
-  const SKIP = "I do not bet: show me";
-
-  function bindBets(scene) {
-    const bets = (scene.bets = {});
-    scene.bet = (name, { question, options }) => {
-      bets[name] = options;
-      if (scene.limits[name]) scene.limits[name] = ["", ...Object.keys(options), "skip"];
-      const choice = scene.choice(name, { label: question, options: { ...options, skip: SKIP } });
-      choice.classList.add("ab-bet");
-      const before = ui.kept(key(scene, name));
-      if (before && !scene.state[name]) scene.set({ [name]: before });
-      scene.control(name, (value) => ui.kept(key(scene, name), value));
-      return choice;
-    };
-    scene.betResult = (name, truth) => {
-      const bet = scene.state[name];
-      if (!bet || bet === "skip") return "";
-      const text = (option) => bets[name][option] ?? option;
-      if (bet === truth) return `You bet on “${text(bet)}”: right.`;
-      return `You bet on “${text(bet)}”; it was “${text(truth)}”.`;
-    };
-  }
-
-  const dropBets = (scene) => {
-    for (const name of Object.keys(scene.bets ?? {})) ui.kept(key(scene, name), "");
+  scene.close = (sentence) => {
+    const text = sentence || "";
+    if (text === told) return;
+    told = text;
+    closing.hidden = !text;
+    closing.textContent = text;
+    if (text) scene.say(text);
   };
 
-  Object.assign(ui, { shell, bindBets, dropBets });
-})((globalThis.abstransfer ??= {}));
+  function fillTwin() {
+    if (!twin.open || !rows) return;
+    const { caption, head, rows: lines } = rows();
+    const cells = (tag, line) => line.map((text) => make(tag, {}, `${text}`));
+    table.replaceChildren(
+      make(
+        "table",
+        {},
+        make("caption", {}, caption),
+        make("thead", {}, make("tr", {}, head.map((text) => make("th", { scope: "col" }, text)))),
+        make(
+          "tbody",
+          {},
+          lines.map(([first, ...rest]) =>
+            make("tr", {}, make("th", { scope: "row" }, `${first}`), cells("td", rest))
+          ),
+        ),
+      ),
+    );
+  }
+  scene.twin = (f) => {
+    rows = f;
+    fillTwin();
+  };
+
+  const foot = make("div", { class: "ab-row ab-foot" }, button("Reset", reset).node);
+  return make(
+    "div",
+    { class: "ab-scene", role: "group", "aria-label": `Scene: ${scene.spec.title}` },
+    body,
+    closing,
+    foot,
+    twin,
+    live,
+  );
+}
+
+// ---- bets: kept in this tab, told to nobody
+
+const key = (scene, name) => `abstransfer ${location.pathname} ${scene.id}.${name}`;
+const SKIP = "I do not bet: show me";
+
+/** @param {Scene} scene */
+export function bindBets(scene) {
+  const bets = (scene.bets = {});
+  scene.bet = (name, { question, options }) => {
+    bets[name] = options;
+    if (scene.limits[name]) scene.limits[name] = ["", ...Object.keys(options), "skip"];
+    const choice = scene.choice(name, { label: question, options: { ...options, skip: SKIP } });
+    choice.classList.add("ab-bet");
+    const before = kept(key(scene, name));
+    if (before && !scene.state[name]) scene.set({ [name]: before });
+    scene.control(name, (value) => kept(key(scene, name), value));
+    return choice;
+  };
+  scene.betResult = (name, truth) => {
+    const bet = scene.state[name];
+    if (!bet || bet === "skip") return "";
+    const text = (option) => bets[name][option] ?? option;
+    if (bet === truth) return `You bet on “${text(bet)}”: right.`;
+    return `You bet on “${text(bet)}”; it was “${text(truth)}”.`;
+  };
+}
+
+/** @param {Scene} scene */
+export const dropBets = (scene) => {
+  for (const name of Object.keys(scene.bets ?? {})) kept(key(scene, name), "");
+};

@@ -1,0 +1,214 @@
+// The ballot box, page 5: states that look alike vote for what is best in them; a dial
+// makes a page of advice of the votes, from ND (0) over Prob (1) to the winner.
+
+import { A, BETAS, betaText, drive, elect, pageOf, STEP, WINNER } from "./votes.js";
+import { wholePage } from "./whole.js";
+import { parseMap } from "../engine/maps.js";
+import { LABELS, navigationTasks } from "../engine/navigation.js";
+import { mapTexts } from "../python.js";
+import { barChart } from "../ui/bars.js";
+import { building } from "../ui/building.js";
+import { button } from "../ui/controls.js";
+import { list, make, number, place as placeOf, plural } from "../ui/dom.js";
+import { defineScene } from "../ui/scene.js";
+import { sight as sightOf, sights } from "../ui/sights.js";
+
+defineScene("ballot", {
+  title: "The ballot box",
+  state: {
+    map: mapTexts.target,
+    source: mapTexts.source,
+    z: 19,
+    task: 7,
+    beta: 1,
+    bet: "",
+    bet_more: "",
+  },
+  limits: { z: [0, 2 ** 11 - 1], task: [0, 999], beta: [0, WINNER] },
+  local: ["bet", "bet_more"],
+
+  build(scene) {
+    const { state } = scene;
+    let sides; // of both buildings: map, and its tasks as far as they are made
+    let election = null; // null until all votes are counted
+    let drives = {}; // by beta: what the page is worth in both buildings
+    let shown = null; // the task that is seen
+    let timer = null;
+
+    const words = make("p", {});
+    const steps = [["A box with more votes", -1], ["A box with fewer votes", 1]].map(([text, by]) =>
+      button(text, () => scene.set({ z: election.boxes[place() + by] }))
+    );
+    const view = building({
+      label: "The small building: lit states vote, arrows are votes",
+      describe: (cell) => describe(cell),
+      onAct: ({ cell }) => act(cell),
+      keys: [["Enter, Space", "open the box of the cell; on a hollow star: make it the goal"]],
+    });
+    const cast = barChart({ label: "Votes in the box", format: (x) => number(x), low: 0 });
+    const chances = barChart({
+      label: "Probabilities on the page",
+      format: (x) => number(x, 3),
+      low: 0,
+      high: 1,
+    });
+    const whole = wholePage(scene);
+    const column = (...nodes) => make("div", { class: "ab-scene" }, nodes);
+    const goals = () => sides?.[0].map.goals ?? [];
+    scene.add(
+      words,
+      scene.row(...steps.map(({ node }) => node)),
+      make(
+        "div",
+        { class: "ab-columns" },
+        column(
+          scene.slider("task", {
+            label: "Goal",
+            step: 1,
+            format: (n) => `${n + 1} of ${goals().length}`,
+          }),
+          view.node,
+        ),
+        column(
+          make("p", {}, "Votes in this box:"),
+          cast.node,
+          scene.slider("beta", { label: "The dial: β", format: betaText, step: STEP }),
+          make("p", {}, "So the page of advice says, with what probability:"),
+          chances.node,
+        ),
+      ),
+      whole.bets,
+      whole.node,
+    );
+    scene.onLeave(() => clearTimeout(timer));
+
+    // ---- the election, and drives along the dial, in slices
+
+    function begin() {
+      sides = ["source", "map"].map((of) => ({ map: parseMap(state[of]), each: [] }));
+      scene.limit("task", [0, goals().length - 1]);
+      view.map(sides[0].map, { aim: goals()[state.task] });
+      [election, drives, shown] = [null, {}, null];
+      start(work());
+    }
+    function start(job) {
+      clearTimeout(timer);
+      timer = setTimeout(advance, 0, job);
+    }
+    function advance(job) {
+      const end = performance.now() + 15;
+      let done = false;
+      while (!done && performance.now() < end) ({ done } = job.next());
+      timer = null;
+      if (!done) start(job);
+      scene.redraw();
+    }
+    function* work() {
+      const [home, { map, each }] = sides;
+      election = yield* elect(home.map, home.each);
+      for (let task = 0; task < map.goals.length; task++) {
+        each.push(navigationTasks(map, { keep: [task] }));
+        yield;
+      }
+      yield* driveAll();
+    }
+    // Where the reader stands comes first, then the three pages.
+    const isDone = () => election && next() === undefined;
+    const next = () =>
+      [state.beta, 0, 1, ...BETAS.slice(-1), ...BETAS].find((beta) => !drives[beta]);
+    function* driveAll() {
+      for (let beta; (beta = next()) !== undefined;) {
+        const page = pageOf(election.prob, beta);
+        const means = [];
+        for (const { each } of sides) means.push(yield* drive(each, page));
+        drives[beta] = means;
+      }
+    }
+
+    // ---- one box
+
+    const place = () => election.boxes.indexOf(state.z);
+    const row = (array, z) => array.subarray(A * z, A * z + A);
+    const sight = (a) => sightOf(LABELS[a]);
+    const actions = () => [...LABELS.keys()].filter((a) => row(shown.possible, state.z)[a]);
+    const chance = (beta) => pageOf(row(election.prob, state.z), beta);
+
+    function describe(cell) {
+      const where = placeOf(view.plan, cell);
+      if (!shown) return where;
+      if (shown.terminal[cell]) return `${where}: the goal, which has no vote`;
+      const star = goals().includes(cell) ? "the goal of another task; " : "";
+      return `${where}: ${star}votes for ${
+        list(LABELS.filter((_, a) => row(shown.best, cell)[a]).map(sightOf))
+      }`;
+    }
+    function act(cell) {
+      const other = goals().indexOf(cell);
+      if (!shown) return;
+      if (shown.terminal[cell]) scene.say("This is the goal: it has no vote.");
+      else scene.set(other >= 0 ? { task: other } : { z: shown.rho[cell] });
+    }
+    function showBox() {
+      const { boxes, votes, states } = election;
+      const { rho, terminal, labels, best, nWays } = shown;
+      const isHere = (cell) => rho[cell] === state.z && !terminal[cell];
+      const here = [...rho.keys()].filter(isHere);
+      view.lit(here);
+      view.arrows(
+        Float64Array.from(
+          labels,
+          (a, i) => a >= 0 && isHere(i >> 2) ? best[A * (i >> 2) + a] / nWays[A * (i >> 2) + a] : 0,
+        ),
+      );
+      view.rename();
+      words.textContent = place() < 0
+        ? `No state of the small building looks like this: ${sights(state.z)}.`
+        : `Box ${place() + 1} of ${boxes.length}: ${sights(state.z)}. ${
+          plural(states[state.z], "state")
+        } of ` +
+          `${plural(goals().length, "task")} vote here, ${here.length} of them in the task shown.`;
+      steps[0].enable(place() > 0);
+      steps[1].enable(place() >= 0 && place() < boxes.length - 1);
+      const bars = (values) => actions().map((a) => ({ name: sight(a), value: values[a] }));
+      cast.set(bars(row(votes, state.z)));
+      chances.set(bars(chance(state.beta)));
+    }
+
+    function twin() {
+      const places = [state.beta, 0, 1, WINNER];
+      const rows = places.map(chance);
+      return {
+        caption: `${words.textContent} Probabilities, and mean values of the whole page.`,
+        head: ["action", "votes", `β = ${betaText(state.beta)}`, "ND", "Prob", "winner"],
+        rows: [
+          ...actions().map((
+            a,
+          ) => [
+            sight(a),
+            number(row(election.votes, state.z)[a], 4),
+            ...rows.map((p) => number(p[a], 6)),
+          ]),
+          ...whole.rows(places, drives),
+        ],
+      };
+    }
+
+    return function draw(_, changed) {
+      if (changed.has("map") || changed.has("source")) begin();
+      if (!election) {
+        words.textContent = `Counting the votes of ${plural(goals().length, "task")} …`;
+        whole.node.hidden = true;
+        return scene.close(false);
+      }
+      shown = sides[0].each[state.task];
+      view.map(sides[0].map, { aim: shown.goal[0] });
+      if (!timer && !isDone()) start(driveAll());
+      showBox();
+      const sentence = whole.show(state, drives, isDone());
+      if (changed.has("beta") && sentence) scene.say(sentence);
+      else if (changed.has("z") || changed.has("task")) scene.say(words.textContent);
+      scene.twin(twin);
+      scene.close(isDone() && whole.closing(drives));
+    };
+  },
+});

@@ -1,0 +1,296 @@
+// One dial, two curves, page 10: the policies proportional to p^beta, from ND (0) over
+// Prob (1) to winner-takes-all.  How well each drives is exact; how well it teaches is
+// learned in workers, when the reader asks.
+
+import { makeGuide, makeWorld } from "../engine/learning.js";
+import { parseMap } from "../engine/maps.js";
+import { navigationTasks } from "../engine/navigation.js";
+import { betaPolicy, inducedPolicies } from "../engine/policies.js";
+import { evaluatePolicy, mean } from "../engine/solvers.js";
+import { mapTexts } from "../python.js";
+import { button } from "../ui/controls.js";
+import { count, make, millions, number, plural } from "../ui/dom.js";
+import { lineChart } from "../ui/lines.js";
+import { defineScene } from "../ui/scene.js";
+import * as runs from "../parts/runs.js";
+
+const SEED = 2015; // run `luck` has the seed of that run of the stored experiments
+const [LAST, STEP] = [8, 0.25];
+const BETAS = Array.from({ length: LAST / STEP + 1 }, (_, i) => i * STEP);
+const REWARDS = { goal: "1 at the goal, Q starts at 0", cost: "−1 a step, Q starts at 0" };
+const BETS = {
+  nd: "at ND, β = 0",
+  drive: "where it drives best",
+  prob: "at Prob, β = 1",
+  more: "beyond Prob",
+};
+const SIDES = { hard: "hard", soft: "soft" };
+
+defineScene("dial", {
+  title: "One dial, two curves",
+  state: {
+    map: mapTexts.target,
+    source: mapTexts.source,
+    beta: 1,
+    reward: "goal",
+    strategy: "hard",
+    tau: 3.5e6,
+    luck: 1,
+    steps: 30e6,
+    bet: "",
+    points: [],
+  },
+  limits: {
+    beta: [0, LAST],
+    reward: Object.keys(REWARDS),
+    strategy: Object.keys(SIDES),
+    tau: [0, 30e6],
+    luck: [1, 50],
+    steps: [6e5, 30e6],
+    bet: ["", ...Object.keys(BETS), "skip"],
+  },
+  local: ["bet", "points"],
+
+  build(scene) {
+    let source, target, prob, drives, worlds; // drives: [in source, in target] by beta
+    let running = []; // { point, n, goals } of workers
+    let [timer, isBegun] = [null, false];
+
+    const policyOf = (beta) => betaPolicy(prob, beta);
+    const drive = (
+      beta,
+    ) => (drives[beta] ??= [source, target].map((tasks) =>
+      mean(evaluatePolicy(tasks, policyOf(beta), tasks.rho))
+    ));
+    const betaText = (beta) =>
+      `${number(beta, 2)}${
+        { 0: " (ND)", 1: " (Prob)", [LAST]: " (winner takes all)" }[beta] ?? ""
+      }`;
+
+    const x = { label: "β (ND at 0, Prob at 1)", format: (b) => number(b, 0), min: 0, max: LAST };
+    const y = {
+      label: "How well it TEACHES: thousands of goals while learning with its advice",
+      min: 0,
+    };
+    const driving = lineChart({
+      label: "How well the policy drives",
+      height: 200,
+      x,
+      y: {
+        label: "How well it DRIVES: mean value of a cell",
+        format: (v) => number(v, 0),
+        min: -90,
+        max: -20,
+      },
+    });
+    const teaching = lineChart({ label: "How well the policy teaches", height: 220, x, y });
+    const now = make("p", {});
+    const one = button("", () => teach([scene.state.beta]), { primary: true });
+    const many = button("", () => teach(places()));
+    const stop = button("Stop", () => (scene.stop(), (running = []), scene.redraw()));
+    scene.add(
+      scene.bet("bet", {
+        question: "Bet first: where on the dial is the best teacher?",
+        options: BETS,
+      }),
+      scene.row(scene.slider("beta", { label: "The dial: β", format: betaText, step: STEP })),
+      driving.node,
+      teaching.node,
+      now,
+      scene.row(one.node, many.node, stop.node),
+      scene.row(
+        scene.choice("strategy", { label: "Advice", options: SIDES }),
+        scene.choice("reward", { label: "The learner's reward", options: REWARDS }),
+      ),
+      scene.row(
+        scene.slider("tau", { label: "Advice until step τ", format: millions, step: 5e5 }),
+        scene.slider("luck", { label: "Luck: run" }),
+      ),
+    );
+
+    function begin(state) {
+      scene.stop();
+      [drives, worlds, running] = [{}, {}, []];
+      [source, target] = [state.source, state.map].map((text) => navigationTasks(parseMap(text)));
+      ({ prob } = inducedPolicies(source));
+      if (isBegun) scene.set({ points: [] }); // they were of other buildings
+      isBegun = true;
+      clearTimeout(timer);
+      timer = setTimeout(driveAll);
+    }
+    // All values of driving, in slices.
+    function driveAll() {
+      const end = performance.now() + 15;
+      const left = BETAS.filter((beta) => !drives[beta]);
+      while (left.length && performance.now() < end) drive(left.shift());
+      timer = left.length ? setTimeout(driveAll) : null;
+      scene.redraw();
+    }
+    const bestDriver = (side) =>
+      timer ? null : BETAS.reduce((a, b) => (drives[b][side] > drives[a][side] ? b : a));
+    const places = () => [...new Set([0, bestDriver(1) ?? 0.5, 1, 2, LAST])];
+
+    // ---- teaching: a point is [beta, goals, strategy, reward, tau, luck, steps]
+
+    const setting = (
+      { strategy, reward, tau, luck, steps },
+    ) => [strategy, reward, tau, luck, steps];
+    const sameAs = (wanted) => ([, , ...rest]) => rest.join() === wanted.join();
+    const tried = (strategy = scene.state.strategy) =>
+      scene.state.points
+        .filter(sameAs(setting({ ...scene.state, strategy })))
+        .sort(([a], [b]) => a - b);
+    const isTried = (beta) => tried().some(([b]) => b === beta);
+    function worldOf(reward) {
+      return (worlds[reward] ??= makeWorld(navigationTasks(target.map, { reward })));
+    }
+    function teach(betas) {
+      const { strategy, reward, tau, luck, steps } = scene.state;
+      const of = setting(scene.state);
+      const window = runs.windowOf(steps);
+      running = betas.filter((beta) => !isTried(beta)).map((beta) => ({ beta, n: 0, goals: 0 }));
+      const mine = running;
+      if (!mine.length) return scene.say("These are known already.");
+      const jobs = mine.map(({ beta }) => ({
+        world: worldOf(reward),
+        guide: makeGuide(policyOf(beta), target.rho),
+        rule: { strategy, tau: runs.scaled(tau, steps) },
+        seed: SEED,
+        key: [0, luck - 1],
+        steps: runs.WINDOWS * window,
+        window,
+      }));
+      scene.learn(jobs, {
+        onWindow(job, i, goals) {
+          mine[job].n = i + 1;
+          mine[job].goals += goals;
+        },
+        onDone(job) {
+          const { beta, goals } = mine[job];
+          scene.set({ points: [...scene.state.points, [beta, goals, ...of]] });
+          scene.say(`β = ${number(beta, 2)}: ${count(goals)} goals.`);
+          if (running === mine && mine.every(({ n }) => n === runs.WINDOWS)) running = [];
+        },
+      });
+    }
+
+    const best = (list) => list.reduce((a, b) => (b[1] > a[1] ? b : a));
+    // Which bet a place on the dial belongs to.
+    const betOf = (beta) =>
+      beta === 0
+        ? "nd"
+        : beta > 1
+        ? "more"
+        : Math.abs(beta - bestDriver(1)) <= 1 - beta
+        ? "drive"
+        : "prob";
+
+    function closing(state) {
+      if (timer) return "";
+      const [inSource, inTarget] = [bestDriver(0), bestDriver(1)];
+      const driver =
+        `The policy drives best at β = ${number(inTarget, 2)} in the target (${
+          number(drives[inTarget][1], 1)
+        }) and ` +
+        `at ${number(inSource, 2)} in the source (${number(drives[inSource][0], 1)}).`;
+      const list = tried();
+      if (!state.bet || !list.length) return driver;
+      const [beta, goals] = best(list);
+      const other = list.find(([b]) => b === inTarget);
+      const all = places().every(isTried);
+      const result = all ? scene.betResult("bet", betOf(beta)) : "";
+      const gap = other && beta !== inTarget
+        ? `, ${
+          number((100 * (goals - other[1])) / Math.max(other[1], 1), 0)
+        } % more than the best driver`
+        : "";
+      return (
+        `${result} ${driver} Of ${plural(list.length, "place")} tried, it teaches best at β = ${
+          number(beta, 2)
+        }: ` +
+        `${count(goals)} goals${gap} (${state.strategy}, τ = ${millions(state.tau)}, ${
+          REWARDS[state.reward]
+        }).`
+      ).trim();
+    }
+
+    function show(state) {
+      const known = BETAS.filter((beta) => drives[beta]);
+      const peak = bestDriver(1);
+      const mark = (beta) => [{ x: beta, label: `peak ${number(beta, 2)}` }];
+      driving.set({
+        curves: ["source", "target"].map((name, side) => ({
+          name,
+          arm: side ? "dial-hard" : "dial-soft",
+          points: known.map((beta) => [beta, drives[beta][side]]),
+        })),
+        marks: peak === null ? [] : mark(peak),
+        cursor: state.beta,
+      });
+      const curves = Object.keys(SIDES).map((side) => ({
+        name: side,
+        arm: `dial-${side}`,
+        points: state.bet ? tried(side).map(([beta, goals]) => [beta, goals / 1000]) : [],
+      }));
+      const list = state.bet ? tried() : [];
+      y.max = 1.25 *
+        Math.max(...curves.flatMap(({ points }) => points.map(([, goals]) => goals)), 4);
+      teaching.set({ curves, cursor: state.beta, marks: list.length ? mark(best(list)[0]) : [] });
+    }
+
+    function tell(state) {
+      const [inSource, inTarget] = drive(state.beta);
+      const point = tried().find(([beta]) => beta === state.beta);
+      const busy = scene.isLearning ? running : [];
+      const taught = !state.bet
+        ? "Bet first, then let it teach."
+        : busy.length
+        ? `Learning: ${
+          busy.map(({ beta, n, goals }) =>
+            `β = ${number(beta, 2)}, ${millions(n * runs.windowOf(state.steps))} steps, ${
+              count(goals)
+            } goals`
+          ).join("; ")
+        }.`
+        : point
+        ? `Taught by it, a robot reaches ${count(point[1])} goals.`
+        : "How well it teaches: not tried yet.";
+      now.textContent =
+        `At β = ${betaText(state.beta)}, driving is worth ${
+          number(inTarget, 2)
+        } a cell in the target, ` +
+        `${number(inSource, 2)} in the source. ${taught}`;
+      one.set(`Let β = ${number(state.beta, 2)} teach: ${millions(state.steps)} steps`);
+      many.set(
+        `Let five teach: β = ${places().map((beta) => number(beta, beta % 1 ? 2 : 0)).join(", ")}`,
+      );
+      one.enable(state.bet);
+      many.enable(state.bet && !timer);
+      stop.node.hidden = !busy.length;
+    }
+
+    function twin() {
+      return {
+        caption: `Value of driving; goals in ${
+          millions(scene.state.steps)
+        } steps of learning, ${scene.state.strategy}, τ = ${millions(scene.state.tau)}.`,
+        head: ["β", "drives in the source", "in the target", "teaches: goals"],
+        rows: BETAS.filter((beta) => drives[beta]).map((beta) => [
+          number(beta, 2),
+          ...drives[beta].map((v) => number(v, 10)),
+          tried().find(([b]) => b === beta)?.[1].toLocaleString("en-US") ?? "–",
+        ]),
+      };
+    }
+
+    scene.onLeave(() => clearTimeout(timer));
+    return function draw(state, changed) {
+      if (changed.has("map") || changed.has("source")) begin(state);
+      show(state);
+      tell(state);
+      if (changed.has("beta")) scene.say(now.textContent);
+      scene.twin(twin);
+      scene.close(closing(state));
+    };
+  },
+});

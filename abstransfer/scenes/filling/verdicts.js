@@ -1,0 +1,46 @@
+// What the first lives of arms say of a claim, as Python's `claims` does.
+
+import { interval } from "../parts/bootstrap.js";
+
+export const SAME = "same"; // the claim that compares each arm with itself
+export const [HOLDS, FAILS, UNDECIDED, IN_PART] = [
+  "holds",
+  "does not hold",
+  "undecided",
+  "holds in part",
+];
+
+/**
+ * @param {number[]} effect with its interval
+ * @param {number} threshold
+ * @param {boolean} above
+ */
+function judge([, low, high], threshold, above) {
+  if (low > threshold) return above ? HOLDS : FAILS;
+  if (high < threshold) return above ? FAILS : HOLDS;
+  return UNDECIDED;
+}
+export function combine(findings) {
+  const main = findings.filter((f) => f.main).map((f) => f.verdict);
+  if (main.every((verdict) => verdict === HOLDS)) {
+    return findings.every((f) => f.verdict === HOLDS) ? HOLDS : IN_PART;
+  }
+  if (main.includes(FAILS)) return main.includes(HOLDS) ? IN_PART : FAILS;
+  return UNDECIDED;
+}
+
+// The data of Python: arms, totals (arms, N), lives and partners (orders, N), claims.
+export function findingsOf({ arms, totals, lives, partners, claims }, key, order, n) {
+  const first = (arm, from) => from[order].slice(0, n).map((i) => totals[arms.indexOf(arm)][i]);
+  return claims[key].compared.map(([text, a, b, threshold, above, main, fixed]) => {
+    const effect = fixed !== null
+      ? [fixed, fixed, fixed]
+      : interval(first(a, lives), first(b, key === SAME ? partners : lives));
+    return { text, a, b, main, fixed, effect, verdict: judge(effect, threshold, above) };
+  });
+}
+// Verdicts by track: of the claim, or of each comparison of an arm with itself.
+export const verdictsOf = (
+  findings,
+  key,
+) => (key === SAME ? findings.map((f) => f.verdict) : [combine(findings)]);

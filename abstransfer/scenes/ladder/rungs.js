@@ -1,0 +1,121 @@
+// Two ladders side by side: the higher a rung, the better its policy drives.  What is
+// here is filled, the paper's number a hollow mark beside it; rungs glide.
+
+import { armStyle, drawn, make, marker, number } from "../ui/dom.js";
+import { spread } from "../ui/lines.js";
+
+const [TOP, BOTTOM, LEFT, RIGHT, LINE, SIZE] = [34, 12, 142, 118, 16, 6];
+const ASIDE = 2 * SIZE; // how far a mark steps that would cover another
+const LABEL = 22;
+const GLIDE = 400; // milliseconds
+
+// Steps aside of marks at these heights: every second one of those that are close.
+function asides(heights) {
+  const aside = [];
+  [...heights.keys()].sort((i, j) => heights[i] - heights[j]).forEach((i, rank, order) => {
+    const before = order[rank - 1];
+    aside[i] = rank && heights[i] - heights[before] < 1.6 * SIZE && !aside[before] ? ASIDE : 0;
+  });
+  return aside;
+}
+
+// `isCalm` says whether rungs jump.
+export function makeLadders({ label, isCalm, height = 400 }) {
+  const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
+  const node = make("div", { class: "ab-chartbox" }, svg);
+  const places = {}; // of rungs: { from, to, began }
+  let [columns, frame] = [[], null];
+  new ResizeObserver(() => paint()).observe(node);
+
+  // Where a rung is on its way.
+  function placeOf(place, now) {
+    const part = Math.min((now - place.began) / GLIDE, 1);
+    return place.to + (place.from - place.to) * (1 - part) ** 3;
+  }
+  // [{ title, hint, isFaint, rungs: [{ arm, value, mark, note }] }]: `mark` is hollow,
+  // and faint where it does not belong to what is shown.
+  function set(next) {
+    columns = next;
+    const now = performance.now();
+    for (const { title, rungs } of columns) {
+      for (const { arm, value } of rungs) {
+        const key = title + arm;
+        const before = places[key];
+        if (!Number.isFinite(value)) continue; // where it was, it glides from
+        if (!before || isCalm()) places[key] = { from: value, to: value, began: 0 };
+        else if (before.to !== value) {
+          places[key] = { from: placeOf(before, now), to: value, began: now };
+        }
+      }
+    }
+    paint();
+  }
+  function paint() {
+    cancelAnimationFrame(frame);
+    const width = node.clientWidth;
+    if (!width || !svg.isConnected) return;
+    const now = performance.now();
+    const y = (value) => TOP - ((height - TOP - BOTTOM) * value) / 100;
+    const thin = (arm) => `stroke:${armStyle(arm).color};stroke-width:1`;
+    const text = (content, x, top, look) => drawn("text", { x, y: top, ...look }, content);
+    const parts = [0, -20, -40, -60, -80, -100].flatMap((tick) => [
+      drawn("path", { d: `M28 ${y(tick)}H${width - 4}`, class: "ab-rule" }),
+      text(number(tick, 0), 0, y(tick) + 4, { class: "ab-faint" }),
+    ]);
+    const lines = {};
+    columns.forEach(({ title, hint, isFaint, rungs }, side) => {
+      const x = side ? width - RIGHT : LEFT;
+      const out = side ? 1 : -1;
+      const end = side ? "start" : "end";
+      parts.push(
+        drawn("path", { d: `M${x} ${y(0)}V${y(-100)}`, class: "ab-axis" }),
+        text(title, x, TOP - 18, { "text-anchor": "middle", class: "ab-name" }),
+      );
+      const shown = rungs.filter(({ value }) => Number.isFinite(value));
+      const heights = shown.map(({ arm }) => y(placeOf(places[title + arm], now)));
+      const rows = spread(heights, LINE, TOP, height - BOTTOM);
+      const aside = asides(heights);
+      shown.forEach(({ arm, value, note }, i) => {
+        const px = x + out * aside[i];
+        (lines[arm] ??= []).push(`${px} ${heights[i]}`);
+        const words = `${armStyle(arm).name} ${number(value)}${note ? " …" : ""}`;
+        const [row, label] = [rows[i], x + out * LABEL];
+        parts.push(
+          drawn("path", {
+            d: `M${px} ${heights[i]}L${label - out * 3} ${row}`,
+            class: "ab-line",
+            style: thin(arm),
+          }),
+          text(words, label, row + 4, {
+            "text-anchor": end,
+            class: "ab-name",
+            style: `fill:${armStyle(arm).color}`,
+          }),
+        );
+      });
+      // Marks last, over all lines; the paper's on the inner side.
+      const marks = shown.filter(({ mark }) => Number.isFinite(mark));
+      const inner = asides(marks.map(({ mark }) => y(mark)));
+      marks.forEach(({ arm, mark }, i) => {
+        const ring = marker(`${arm}-soft`, x - out * (2.6 * SIZE + inner[i]), y(mark), SIZE - 0.5);
+        if (isFaint) ring.style.stroke = "var(--ab-control)";
+        parts.push(ring);
+      });
+      shown.forEach(({ arm }, i) => parts.push(marker(arm, x + out * aside[i], heights[i], SIZE)));
+      if (hint) {
+        const look = { "text-anchor": "middle", class: "ab-name" };
+        hint.forEach((words, i) => parts.push(text(words, x, y(-56) + LINE * i, look)));
+      }
+    });
+    const across = Object.entries(lines).filter(([, ends]) => ends.length === 2).map((
+      [arm, ends],
+    ) => drawn("path", { d: `M${ends.join("L")}`, class: "ab-line", style: thin(arm) }));
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.style.height = `${height}px`;
+    svg.replaceChildren(...across, ...parts);
+    const isMoving = Object.values(places).some(({ began }) => now - began < GLIDE);
+    if (isMoving) frame = requestAnimationFrame(paint);
+  }
+  const describe = (sentence) => svg.setAttribute("aria-label", sentence);
+  return { node, set, describe };
+}

@@ -1,0 +1,58 @@
+// The runs that the microscope looks at: what differs is where they start, and luck.
+
+import { makeWorld, Run } from "../engine/learning.js";
+import { navigationTasks } from "../engine/navigation.js";
+
+export const TWO_ROOMS = `+-----+-----+
+|     |     |
+|     |     |
+|  *  |  *  |
+|     |     |
+|     |     |
++--d--+--d--+
+|. . . . . .|
+|           |
+|. . . . . .|
++-----------+`;
+export const A = 8;
+export const STEPS = 300; // that can be looked at
+export const BET = 100; // steps after which cells are counted
+export const LUCKS = 20; // runs that the closing sentence averages
+export const STARTS = {
+  goal: { reward: "goal", q0: 0, text: "1 at the goal, Q starts at 0" },
+  cost: { reward: "cost", q0: 0, text: "−1 a step, Q starts at 0" },
+  low: { reward: "cost", q0: -10, text: "−1 a step, Q starts at −10" },
+};
+export const HOW = { guided: "advised", explored: "a random action", greedy: "a largest value" };
+// The steps of a run: what the engine says of each.
+export function take(map, { start, task, luck }, n) {
+  const { reward, q0 } = STARTS[start];
+  const tasks = navigationTasks(map, { reward, keep: [task] });
+  const run = new Run(makeWorld(tasks), null, { q0 }, luck);
+  const first = run.s;
+  return { tasks, first, q0, steps: Array.from({ length: n }, () => run.step()) };
+}
+
+// A run that Python took: rows of [state, action, how, next, reward, before, after, here].
+export function given(map, { start, task, trace }) {
+  const { reward, q0 } = STARTS[start];
+  const tasks = navigationTasks(map, { reward, keep: [task] });
+  const steps = trace.map(([s, a, how, next, r, before, after, here], i) => ({
+    t: i + 1,
+    s,
+    a,
+    how: ["guided", "explored", "greedy"][how],
+    next,
+    reward: r,
+    before,
+    after,
+    here,
+    ended: tasks.terminal[next] ? "goal" : here === next ? null : "cut",
+    isGiven: true,
+  }));
+  return { tasks, first: trace[0][0], q0, steps };
+}
+
+// Cells that a run has stood on after n steps.
+export const visited = ({ first, steps }, n) =>
+  new Set(steps.slice(0, n).flatMap(({ s, next }) => [s, next]).concat(n ? [] : [first]));

@@ -1,0 +1,96 @@
+// A building that the reader edits: the drawing in the state as `text`, its view, its
+// tools, and what is not legal in it.  Map Studio and other scenes are made with it.
+
+import { runFor } from "../engine/absprob_pi.js";
+import { drawMap, parseMap } from "../engine/maps.js";
+import { makeTools } from "./tools.js";
+import { mapTexts } from "../python.js";
+import { describeCell } from "./drawing.js";
+import { building } from "../ui/building.js";
+import { button } from "../ui/controls.js";
+import { make } from "../ui/dom.js";
+
+const MANY = 1500; // cells: from here on, solving waits to be asked for
+const SLICE = 15; // milliseconds of work between two pictures
+
+// `onMap(problem)` hears of another drawing: `map` is it or, where it draws none, the
+// last one.  `begin` solves it: a button calls it where that waits to be asked for.
+// `buildings` are more to start from, by name; `walk` moves a robot.
+export function makeEditor(scene, options = {}) {
+  const { buildings, walk, onMap, begin, ...view } = options;
+  const legal = make("p", {});
+  const me = { map: null, text: null, walked: null, problem: "", bad: [], legal, read, walk };
+  const tools = (me.tools = makeTools(scene, me, buildings));
+  me.view = building({
+    label: "The building",
+    onAct: tools.act,
+    onKey: tools.press,
+    keys: tools.keys,
+    describe: (cell) => describeCell(me.map, cell, me.walked?.cell),
+    ...view,
+  });
+  tools.listen(me.view);
+  let [timer, isAsked] = [null, false];
+  const solve = (me.solve = button("Large building: solve it", () => {
+    me.ask();
+    begin();
+    scene.redraw();
+  }, { primary: true }));
+
+  me.ask = () => (isAsked = true);
+  me.isLarge = () => me.map.nCells > MANY && !isAsked;
+  me.isWorking = () => timer !== null;
+  // Work off an iterator in slices, so that the page stays free; the last one ends.
+  // `onSlice(last, isOver)` hears what it yielded last, undefined if nothing.
+  me.work = (job, onSlice) => {
+    clearTimeout(timer);
+    timer = null;
+    if (!job) return;
+    const slice = () => {
+      const { last, done } = runFor(job, SLICE);
+      timer = done ? null : setTimeout(slice);
+      onSlice(last, done);
+      scene.redraw();
+    };
+    timer = setTimeout(slice);
+  };
+  scene.onLeave(() => clearTimeout(timer));
+  // Renew what changes with the state; `cells` are lit unless some are wrong.
+  me.show = (cells = null) => {
+    me.view.lit(me.problem ? me.bad : cells);
+    solve.node.hidden = Boolean(me.problem) || !me.isLarge();
+    tools.show();
+  };
+
+  // Take a text; keep the last building where it draws none.
+  function read() {
+    const { text } = scene.state;
+    const before = me.map;
+    if (text === me.text) return;
+    me.text = text;
+    [me.problem, me.bad] = ["", []];
+    try {
+      me.map = drawMap(text).map;
+      parseMap(me.map.text);
+    } catch (error) {
+      const { message, row, column } = /** @type {any} */ (error);
+      me.problem = message;
+      me.bad = [row - 1, row, row + 1].flatMap((r) =>
+        [column - 1, column, column + 1].map((c) => [r, c])
+      );
+    }
+    const map = (me.map ??= parseMap(mapTexts.source));
+    const isInside = ([r, c]) =>
+      r % 2 && c % 2 && r > 0 && c > 0 && r < 2 * map.height && c < 2 * map.width;
+    me.bad = me.bad.filter(isInside).map(([r, c]) => ((r - 1) / 2) * map.width + (c - 1) / 2);
+    if (before && before.text !== map.text) tools.remember(before.text);
+    me.view.map(map);
+    legal.classList.toggle("ab-now", Boolean(me.problem));
+    legal.textContent = me.problem ? `Not legal yet: ${me.problem}.` : "A legal building.";
+    if (me.problem) scene.say(legal.textContent);
+    tools.write(text);
+    isAsked = false;
+    onMap?.(me.problem);
+  }
+  return me;
+}

@@ -1,0 +1,348 @@
+// Your turn, page 11: a building and features of one's own, a race in it, and a result
+// card to hand in.
+
+import { abstractStates, FEATURES } from "../engine/navigation.js";
+import { makeEditor } from "../parts/editor.js";
+import { lifeRows } from "../parts/rows.js";
+import { textButtons } from "../parts/tools.js";
+import { barChart } from "../ui/bars.js";
+import { button, toggle } from "../ui/controls.js";
+import { count, list, make, number, plural } from "../ui/dom.js";
+import { defineScene } from "../ui/scene.js";
+import { sight } from "../ui/sights.js";
+import * as rules from "./race.js";
+
+const ROOM = `${"|     ".repeat(3)}|\n`;
+const ROOMS = `${ROOM}${ROOM}|  *  |  *  d  *  |\n${ROOM}${ROOM}`;
+const SCHOOL = `+-----+-----+-----+
+${ROOMS}+--d--+-----+--d--+
+|. . . . . . . . .|
++--d--+--d--+-----+
+${ROOMS}+-----+-----+-----+`;
+const NAMES = {
+  nd: "ND",
+  prob: "Prob",
+  grad: "Grad",
+  eager: "eager",
+  rand: "random",
+  optimal: "optimal",
+};
+const FROM = {
+  source: "the paper's source",
+  target: "the paper's target",
+  own: "this building itself",
+};
+const WAYS = { hard: "hard: obey to the letter", soft: "soft: ever less often" };
+const BETS = { nd: "ND's", prob: "Prob's", grad: "Grad's", all: "all of them", none: "none" };
+const PAGES = ["nd", "prob", "grad"];
+const lived = (n) => (n === 1 ? "1 life" : `${n} lives`);
+const armOf = (name) => (name === "eager" ? "uniform_available" : name);
+
+defineScene("project", {
+  title: "Your turn: a race in your own building",
+  state: {
+    text: SCHOOL,
+    tool: "wall",
+    features: FEATURES,
+    guides: [...PAGES, "eager"],
+    advice: "source",
+    strategy: "hard",
+    lives: 5,
+    bet: "",
+    goals: {},
+  },
+  limits: {
+    tool: ["wall", "door", "room", "corridor", "goal"],
+    advice: Object.keys(FROM),
+    strategy: Object.keys(WAYS),
+    lives: [1, 20],
+  },
+  local: ["bet", "goals"],
+
+  build(scene) {
+    const { state } = scene;
+    let [found, isWanted, isBegun] = [null, false, false];
+    let [asked, done] = [1, 0]; // tenths of lives
+
+    const me = makeEditor(scene, { buildings: { "The school": SCHOOL } });
+    // Ticks of a list in the state; what an address holds is put in order.
+    const listed = (name, all) => {
+      const now = state[name];
+      return Array.isArray(now) ? all.filter((each) => now.includes(each)) : all;
+    };
+    function ticks(name, label, all, words) {
+      const boxes = all.map((each) =>
+        toggle({
+          label: words(each),
+          onInput: (is) =>
+            scene.set({
+              [name]: all.filter((
+                other,
+              ) => (other === each ? is : listed(name, all).includes(other))),
+            }),
+        })
+      );
+      scene.control(
+        name,
+        () => boxes.forEach(({ set }, i) => set(listed(name, all).includes(all[i]))),
+      );
+      const boxed = make("div", { class: "ab-segments" }, boxes.map(({ node }) => node));
+      return make("fieldset", { class: "ab-choice" }, make("legend", {}, label), boxed);
+    }
+    const features = () => listed("features", FEATURES);
+    const guides = () => listed("guides", rules.GUIDES);
+
+    const bars = barChart({
+      label: "How each page drives here",
+      format: (x) => number(x, 1),
+      low: -100,
+      high: 0,
+    });
+    const dots = lifeRows("Goals of each life, beside the same life without advice");
+    const [status, told] = [1, 2].map(() => make("p", {}));
+    const key = make(
+      "p",
+      { class: "ab-ylabel" },
+      "Dots: lives. Box: their quarters. Diamond: their mean, with a 95 % interval.",
+    );
+    const start = button("", () => race(), { primary: true });
+    const stop = button("Stop", () => (scene.stop(), (isWanted = false), scene.redraw()));
+    const area = make("textarea", {
+      rows: 14,
+      readonly: true,
+      spellcheck: "false",
+      "aria-label": "The result card as text",
+    });
+    const card = make(
+      "details",
+      { open: true },
+      make("summary", {}, "Result card: hand it in"),
+      area,
+      scene.row(...textButtons(scene, area, "result-card.md")),
+    );
+    scene.add(
+      scene.bet("bet", {
+        question: "Bet first: which pages help a robot in the school, compared with no advice?",
+        options: BETS,
+      }),
+      make(
+        "div",
+        { class: "ab-columns" },
+        make("div", { class: "ab-body" }, me.tools.bar, me.view.node, me.legal, me.tools.files),
+        make(
+          "div",
+          { class: "ab-body" },
+          make("p", {}, "How each page drives here, before any learning: mean value of a cell."),
+          bars.node,
+          told,
+        ),
+      ),
+      make(
+        "details",
+        {},
+        make("summary", {}, "What the robots see"),
+        ticks("features", "The eleven features; tick what counts", FEATURES, sight),
+      ),
+      scene.row(
+        scene.choice("advice", { label: "The pages are written in", options: FROM }),
+        scene.choice("strategy", { label: "Advice", options: WAYS }),
+      ),
+      scene.row(
+        ticks(
+          "guides",
+          "Robots, beside the one without advice; eager does whatever can be done",
+          rules.GUIDES,
+          (name) => NAMES[name],
+        ),
+        scene.slider("lives", { label: "Lives of each" }),
+      ),
+      scene.row(start.node, stop.node),
+      status,
+      make("div", {}, key, dots.node),
+      card,
+    );
+
+    // ---- before the race: the pages, in slices
+
+    const isReady = () => found?.iteration === rules.GRAD && found.drives.grad !== undefined;
+    function prepare() {
+      found = null;
+      const job = !me.problem && !me.isLarge() && rules.preparing(me.map, features(), state.advice);
+      me.work(job, (last, isOver) => {
+        found = last ?? found;
+        if (isOver && isWanted) learn();
+      });
+    }
+
+    // ---- the race
+
+    const robots = () => ["none", ...guides()];
+    const livesOf = (name) => (state.goals[name] ?? []).slice(0, state.lives);
+    const isKnown = (name, life) => Number.isFinite(state.goals[name]?.[life]);
+    const missing = () =>
+      Array.from(
+        { length: state.lives },
+        (_, life) => robots().filter((name) => !isKnown(name, life)).map((name) => [name, life]),
+      ).flat();
+    const isDone = () => !missing().length;
+    const mayRace = () => state.bet && !me.problem && !scene.isLearning && !isWanted;
+    function race() {
+      if (!mayRace()) return;
+      if (isDone()) return scene.say("All these lives are lived.");
+      isWanted = me.ask();
+      if (isReady()) learn();
+      else if (!me.isWorking()) prepare();
+      scene.redraw();
+    }
+    function learn() {
+      const lives = missing();
+      isWanted = false;
+      [asked, done] = [10 * lives.length, 0];
+      const sums = lives.map(() => 0);
+      scene.learn(
+        rules.jobsOf(
+          me.map,
+          { features: features(), strategy: state.strategy },
+          found.guides,
+          lives,
+        ),
+        {
+          onWindow(job, _, goals) {
+            sums[job] += goals;
+            done++;
+          },
+          onDone(job) {
+            const [name, life] = lives[job];
+            const mine = [...(state.goals[name] ?? [])];
+            for (let i = mine.length; i < life; i++) mine[i] = null;
+            mine[life] = sums[job];
+            scene.set({ goals: { ...state.goals, [name]: mine } });
+          },
+        },
+      );
+    }
+
+    // ---- what it shows
+
+    const more = (name) =>
+      livesOf(name).flatMap((
+        n,
+        i,
+      ) => (isKnown(name, i) && isKnown("none", i) ? [n - state.goals.none[i]] : []));
+    function verdict() {
+      if (!isDone() || !guides().length || !state.bet) return "";
+      const none = livesOf("none");
+      const { lives } = state;
+      const found = guides().map((name) => rules.judge(name, livesOf(name), none));
+      const words = found.map(({ name, gain, isHurt, n }) => {
+        const share = Number.isFinite(gain) ? ` (${isHurt ? "" : "+"}${number(100 * gain)} %)` : "";
+        return `${NAMES[name]} ${isHurt ? "hurt" : "helped"} in ${n}${share}`;
+      });
+      const raced = found.filter(({ name }) => PAGES.includes(name));
+      const better = raced.filter(({ gain }) => gain > 0).map(({ name }) => name);
+      const truth = { 0: "none", 1: better[0], 3: "all" }[better.length] ??
+        list(better.map((name) => BETS[name]));
+      const isSchool = ["text", "features", "advice", "strategy"].every((key) =>
+        `${state[key]}` === `${scene.spec.state[key]}`
+      );
+      const mean = none.reduce((a, b) => a + b, 0) / lives;
+      return (
+        `${
+          isSchool && raced.length === 3 ? scene.betResult("bet", truth) : ""
+        } A life without advice reaches ` +
+        `${count(mean)} goals. Of ${lived(lives)} with the same luck, ${list(words)}.` +
+        `${
+          found.some(({ n }) => n < lives) && lives < 20
+            ? " Where lives disagree, more lives tell more."
+            : ""
+        }`
+      ).trim();
+    }
+    function saying() {
+      const { steps, tau } = rules.scale(me.map);
+      const length = `A life is ${count(steps)} steps, with advice in the first ${count(tau)}.`;
+      if (me.problem) return "No race: the building is not legal yet.";
+      if (!state.bet) return `${length} Bet first, then race.`;
+      if (isWanted) {
+        return `${length} The pages are being written: Grad, ${
+          found?.iteration ?? 0
+        } of ${rules.GRAD}.`;
+      }
+      if (scene.isLearning) {
+        return `${length} Racing: ${number((100 * done) / asked, 0)} % of ${lived(asked / 10)}.`;
+      }
+      return length;
+    }
+    const rows = () => {
+      const goals = isDone()
+        ? Object.fromEntries(robots().map((name) => [name, livesOf(name)]))
+        : {};
+      return rules.cardRows(guides(), found?.drives ?? {}, goals, state.lives);
+    };
+
+    function show() {
+      const { drives = {} } = found ?? {};
+      bars.set(
+        [...rules.GUIDES, "optimal"].map((name) => ({
+          name: NAMES[name],
+          arm: armOf(name),
+          value: drives[name] ?? null,
+        })),
+      );
+      told.textContent = isReady()
+        ? `${
+          count(abstractStates(found.tasks).length)
+        } abstract states: the robots see ${features().length} of 11 features.`
+        : me.isLarge()
+        ? "A building of this size is solved when the race begins."
+        : me.problem
+        ? ""
+        : `Grad climbs: ${found?.iteration ?? 0} of ${rules.GRAD}.`;
+      status.textContent = saying();
+      start.set(`Race: ${lived(state.lives)} of ${plural(robots().length, "robot")}`);
+      start.enable((mayRace() && !isDone()) || start.node === document.activeElement); // it keeps the focus
+      stop.node.hidden = !scene.isLearning && !isWanted;
+      const racing = guides().filter((name) => more(name).length);
+      key.parentNode.hidden = !racing.length;
+      dots.set(
+        rules.picture(
+          racing.map((name) => ({ name: NAMES[name], arm: armOf(name), lives: more(name) })),
+        ),
+      );
+      dots.describe(verdict() || "Goals of each life, beside the same life without advice");
+      card.hidden = !(isDone() && isReady());
+      if (!card.hidden) {
+        const { advice, strategy, lives } = state;
+        area.value = rules.cardText({
+          map: me.map,
+          tasks: found.tasks,
+          features: features(),
+          advice,
+          strategy,
+          lives,
+          rows: rows(),
+        });
+      }
+      me.show();
+    }
+
+    return function draw(_, changed) {
+      const isNew = ["text", "features", "advice"].some((name) => changed.has(name));
+      if (changed.has("text")) me.read();
+      if (isNew || changed.has("strategy")) {
+        scene.stop();
+        isWanted = false;
+        if (isBegun) scene.set({ goals: {} }); // they were of another race
+        isBegun = true;
+      }
+      if (isNew) prepare();
+      show();
+      scene.twin(() => ({
+        caption: `${status.textContent} ${told.textContent}`,
+        head: rules.headOf(state.lives),
+        rows: rows(),
+      }));
+      scene.close(verdict());
+    };
+  },
+});

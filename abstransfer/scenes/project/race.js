@@ -1,0 +1,167 @@
+// A project: its pages of advice, how they drive, how long a life is, and the text to
+// hand in.  See Python's `project` and `project_card`.
+
+import { absprobPi } from "../engine/absprob_pi.js";
+import { makeGuide, makeWorld } from "../engine/learning.js";
+import { parseMap } from "../engine/maps.js";
+import { abstractStates, FEATURES, navigationTasks } from "../engine/navigation.js";
+import { PAPER_STEPS } from "../engine/paper.js";
+import { inducedPolicies, randomPolicy, uniformPolicy } from "../engine/policies.js";
+import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
+import { interval as around, quantile } from "../parts/bootstrap.js";
+import { mapTexts } from "../python.js";
+import { count } from "../ui/dom.js";
+
+const SEED = 2015;
+export const GRAD = 300; // iterations
+export const GUIDES = ["nd", "prob", "grad", "eager", "rand"];
+const half = (x) => Math.floor(x + 0.5);
+
+// Steps of a life and of advice, in the paper's proportions, rounded.
+export function scale({ goals, nCells }) {
+  const long = (PAPER_STEPS / 151200) * goals.length * nCells * 8;
+  const unit = long >= 1e5 ? 1e4 : 100;
+  const steps = unit * half(long / unit);
+  return { steps, tau: unit * half(((3.5 / 30) * steps) / unit) };
+}
+
+const pages = {}; // written before, by building and features
+
+// Yield { tasks, drives, guides, iteration }: how the pages of a building ("source",
+// "target", "own") drive in a map, and the pages, as they are found.
+export function* preparing(map, features, advice) {
+  const tasks = navigationTasks(map, { features });
+  const found = { tasks, drives: {}, guides: {}, iteration: 0 };
+  const drive = (name, policy) => {
+    found.guides[name] = policy;
+    found.drives[name] = mean(evaluatePolicy(tasks, policy, tasks.rho));
+  };
+  drive("rand", randomPolicy(tasks.nAbstract));
+  drive("eager", uniformPolicy(tasks.possible));
+  found.drives.optimal = mean(optimalValues(tasks));
+  yield found;
+  const key = advice + features;
+  if (!pages[key]) {
+    const from = advice === "own"
+      ? tasks
+      : navigationTasks(parseMap(mapTexts[advice]), { features });
+    const { nd, prob } = inducedPolicies(from);
+    drive("nd", nd);
+    drive("prob", prob);
+    let grad;
+    for (const { iteration, policy } of absprobPi(from, { iterations: GRAD })) {
+      grad = policy;
+      found.iteration = iteration;
+      yield found;
+    }
+    if (advice !== "own") pages[key] = { nd, prob, grad };
+    drive("grad", grad);
+  } else for (const [name, policy] of Object.entries(pages[key])) drive(name, policy);
+  found.iteration = GRAD;
+  yield found;
+}
+
+// Jobs of lives [robot, life] for `learnAll`.
+export function jobsOf(map, { features, strategy }, guides, lives) {
+  const tasks = navigationTasks(map, { features, reward: "goal" });
+  const world = makeWorld(tasks);
+  const { steps, tau } = scale(map);
+  const made = {};
+  return lives.map(([robot, life]) => ({
+    world,
+    steps,
+    window: steps / 10,
+    seed: SEED,
+    key: [0, life],
+    rule: { strategy, tau },
+    guide: robot === "none" ? null : (made[robot] ??= makeGuide(guides[robot], tasks.rho)),
+  }));
+}
+
+const total = (goals) => goals.reduce((sum, n) => sum + n, 0);
+// By how much robots reached more than the one without advice: 0.1 is 10 %.
+const gainOf = (goals, none) => total(goals) / total(none) - 1;
+
+// What a race says of a robot: its gain, and in how many lives it was so.
+export function judge(name, goals, none) {
+  const gain = gainOf(goals, none);
+  const isHurt = gain < 0;
+  return {
+    name,
+    gain,
+    isHurt,
+    n: goals.filter((g, i) => (isHurt ? g < none[i] : g > none[i])).length,
+  };
+}
+
+// Goals more than the same life without advice, [{ name, arm, lives }], as `filling.rows`
+// draws them: a dot per life, their box, the mean with its interval.
+export function picture(robots) {
+  const signed = (n) => `${n > 0 ? "+" : ""}${count(n)}`;
+  const items = robots.map((robot) => {
+    const sorted = [...robot.lives].sort((a, b) => a - b);
+    const interval = around(robot.lives);
+    const [mean, low, high] = interval.map(signed);
+    const box = [0, 0.25, 0.5, 0.75, 1].map((share) => quantile(sorted, share));
+    return {
+      ...robot,
+      box,
+      interval,
+      text: sorted.length > 1 ? `${mean} [${low}, ${high}]` : mean,
+    };
+  });
+  const all = [0, 1, ...robots.flatMap(({ lives }) => lives)];
+  const [low, high] = [Math.min(...all), Math.max(...all)];
+  const margin = (high - low) / 12;
+  const axis = "goals more than without advice, same luck";
+  return { items, from: low - margin, to: high + margin, zero: 0, axis, format: signed };
+}
+
+// The rows of the card: robot, drives, goals of a life, over none, each life.
+export function cardRows(chosen, drives, goals, lives) {
+  return ["none", ...chosen, "optimal"].map((name) => {
+    const mine = goals[name] ?? [];
+    const gain = half(1000 * (gainOf(mine, goals.none ?? []) + 1) - 1000) / 10;
+    const isGain = mine.length && name !== "none" && total(goals.none) > 0;
+    return [
+      name,
+      name === "none" ? "" : (drives[name]?.toFixed(2) ?? ""),
+      mine.length ? `${half(total(mine) / mine.length)}` : "",
+      isGain ? `${gain < 0 ? "" : "+"}${gain.toFixed(1)} %` : "",
+      ...Array.from({ length: lives }, (_, i) => mine[i] ?? ""),
+    ];
+  });
+}
+const HEAD = ["robot", "drives", "goals of a life", "over none"];
+export const headOf = (
+  lives,
+) => [...HEAD, ...Array.from({ length: lives }, (_, i) => `life ${i + 1}`)];
+
+export function cardText({ map, tasks, features, advice, strategy, lives, rows }) {
+  const { steps, tau } = scale(map);
+  const seen = features.length === FEATURES.length ? "all" : features.join(", ") || "none";
+  const size = `${map.nCells} cells, ${map.nRooms} rooms, ${map.goals.length} goals`;
+  const settings = {
+    Building: `${size}, ${abstractStates(tasks).length} abstract states`,
+    "Advice from": advice,
+    Features: seen,
+    Strategy: strategy,
+    Steps: steps,
+    Tau: tau,
+    Lives: lives,
+    Seed: SEED,
+  };
+  const head = headOf(lives);
+  return [
+    "# Result card",
+    "",
+    ...Object.entries(settings).map(([name, value]) => `- ${name}: ${value}`),
+    "",
+    ...[head, head.map(() => "---"), ...rows].map((row) => `| ${row.join(" | ")} |`),
+    "",
+    "```text",
+    map.text,
+    "```",
+    "",
+  ].join("\n");
+}

@@ -1,0 +1,77 @@
+// What Map Studio does with a building, without a page: walk a robot by compass, and
+// rebuild Table 1 piece by piece.
+
+import { absprobPi } from "../engine/absprob_pi.js";
+import { DIRECTIONS } from "../engine/maps.js";
+import { abstractStates, LABELS, navigationTasks } from "../engine/navigation.js";
+import { inducedPolicies, randomPolicy } from "../engine/policies.js";
+import { nextWord, seedState } from "../engine/random.js";
+import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
+
+const LUCK = 1; // seed of the robot's slips
+const WORD = 4294967296;
+export const GRAD = 300; // iterations
+
+// Walk: letters N, E, S, W from a cell.  Return { cell, steps, total, isOver }, each
+// step { cell, d, a, next, r, slips }; `a` is the label of that edge, -1 a wall.
+export function follow(tasks, start, walk) {
+  const luck = seedState(LUCK);
+  const steps = [];
+  let [cell, total, weight] = [start, 0, 1];
+  for (const letter of walk) {
+    const d = DIRECTIONS.indexOf(letter);
+    if (d < 0 || tasks.terminal[cell]) continue;
+    const a = tasks.labels[4 * cell + d];
+    const slips = nextWord(luck) / WORD >= tasks.success;
+    const next = a < 0 || slips ? cell : tasks.neighbors[4 * cell + d];
+    const r = tasks.reward[next];
+    steps.push({ cell, d, a, next, r, slips: slips && a >= 0 });
+    total += weight * tasks.reward[cell]; // a state pays on its own account, as in its value
+    weight *= tasks.gamma;
+    cell = next;
+  }
+  return { cell, steps, total, isOver: tasks.terminal[cell] === 1 };
+}
+
+// All that can happen next in a cell: { a, next, chance, r }; chances of one a sum to 1.
+export function outcomes(tasks, cell) {
+  const ways = LABELS.map(() => []);
+  for (let d = 0; d < 4; d++) {
+    const a = tasks.labels[4 * cell + d];
+    if (a >= 0) ways[a].push(tasks.neighbors[4 * cell + d]);
+  }
+  return ways.flatMap((cells, a) => {
+    if (!cells.length) return [];
+    const moved = cells.map((next) => ({ a, next, chance: tasks.success / cells.length }));
+    return [...moved, { a, next: cell, chance: 1 - tasks.success }].map((each) => ({
+      ...each,
+      r: tasks.reward[each.next],
+    }));
+  });
+}
+
+// Yield { tasks, states, row, policies, iteration } as it fills: number of abstract
+// states, row of Table 1, policies by name, iteration of Grad.
+export function* solving(map) {
+  const tasks = navigationTasks(map);
+  const found = { tasks, row: {}, policies: {}, iteration: 0 };
+  const drive = (name, policy) => {
+    found.policies[name] = policy;
+    found.row[name] = mean(evaluatePolicy(tasks, policy, tasks.rho));
+  };
+  found.states = abstractStates(tasks).length;
+  drive("rand", randomPolicy(tasks.nAbstract));
+  yield found;
+  const v = optimalValues(tasks);
+  found.row.optimal = mean(v);
+  yield found;
+  const { nd, prob } = inducedPolicies(tasks, { v });
+  drive("nd", nd);
+  drive("prob", prob);
+  for (const { iteration, policy, value } of absprobPi(tasks, { iterations: GRAD })) {
+    found.policies.grad = policy;
+    found.iteration = iteration;
+    found.row.grad = value;
+    yield found;
+  }
+}
