@@ -39,8 +39,10 @@ export function learnAll(jobs, { onWindow, onDone, nWorkers, look = LOOK } = {})
   async function serve(member) {
     while (waiting.length && !isStopped) {
       const job = waiting.shift();
+      let nTold = 0;
       const tell = (i, goals) => {
-        if (isStopped) return;
+        if (isStopped || i !== nTold) return;
+        nTold++;
         onWindow?.(job, i, goals);
       };
       let q = member.worker && (await inWorker(member, jobs[job], tell));
