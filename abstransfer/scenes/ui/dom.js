@@ -52,7 +52,7 @@ export function number(x, digits = 1) {
 /** @param {number} n */
 export const count = (n) => Math.round(n).toLocaleString("en-US").replace("-", "−");
 /** @param {number} n */
-export const millions = (n) => `${Number(count(n / 1e5)) / 10} M`;
+export const millions = (n) => `${Math.round(n / 1e5) / 10} M`;
 /**
  * @param {number} n
  * @param {string} noun
