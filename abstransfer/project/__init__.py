@@ -7,7 +7,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "racing": ["Race", "race"],
         "setup": ["Setup", "drives", "run"],
-        "card": ["make_card", "read_card"],
-        "project_card": ["card_text", "verify"],
+        "card": ["card_text", "verify"],
     },
 )

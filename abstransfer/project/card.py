@@ -1,154 +1,172 @@
 """
-The card of a race: a result that can be handed in, and run again by others.
+The card that a project hands in: what was raced, and the goals of each life.
 
-Page 11 of the book teaches this module.
+The scene of page 11 writes the same text.  A person can read it, and :func:`verify`
+runs the race again, and says which line is not so.
 """
 
 from __future__ import annotations
 
-import json
-import platform
-from dataclasses import asdict, dataclass, fields, replace
-from importlib import metadata
-from pathlib import Path
+import re
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from ..driving import column
-from ..experiments.problem import digest
-from ..experiments.stats import Interval, mean_interval, relative_gain
+from ..abstraction import FEATURES
+from ..experiments.plan import SEED
+from ..maps import parse_map
 from .racing import Race
+from .setup import GUIDES, Setup, column_of, run, scale
+
+TITLE = "# Result card"
+COUNTS = ("cells", "rooms", "goals", "abstract_states")
+HEAD = ("robot", "drives", "goals of a life", "over none")
 
 
-@dataclass(frozen=True)
-class Card:
-    """What a race showed; :func:`make_card` makes one."""
+class Verified(NamedTuple):
+    """A race that was run again."""
 
-    title: str
-    by: str
-    building: str  # the text of its maps
-    counts: dict[str, int]  # cells, rooms, goals, abstract states
-    settings: dict  # features, steps, tau, strategy, runs, seed
-    drives: dict[str, float]  # value of obeying, as in a column of Table 1
-    goals: dict[str, Interval]  # of a run
-    gains: dict[str, Interval]  # over Q-learning: 0.1 is 10 % more goals
-    versions: dict[str, str]  # in the files, not in the text
-
-    @property
-    def fingerprint(self) -> str:
-        """Short fingerprint of all but the versions: equal cards, equal results."""
-        content = asdict(self) | {"versions": {}}
-        return digest(json.dumps(content, sort_keys=True).encode())
-
-    def __str__(self) -> str:
-        """Return the card as Markdown; values round, so machines agree on it."""
-        counts = (f"{n} {name.replace('_', ' ')}" for name, n in self.counts.items())
-        settings = (f"{name} {value}" for name, value in self.settings.items())
-        head = ("robot", "drives", "goals of a run", "over none")
-        rows = [head] + [
-            (
-                name,
-                f"{self.drives[name]:.2f}" if name in self.drives else "",
-                _text(self.goals.get(name), 1, "{:,.0f}", ""),
-                _text(self.gains.get(name), 100, "{:+.1f}", " %"),
-            )
-            for name in dict.fromkeys([*self.goals, *self.drives])
-        ]
-        building = f"Building {digest(self.building.encode())}: {', '.join(counts)}."
-        lines = [f"# {self.title}", "", f"By {self.by}. {building}"]
-        lines += [f"Settings: {'; '.join(settings)}.", "", *_table(rows), ""]
-        return "\n".join([*lines, "```text", self.building, "```", ""])
-
-    def save(self, path: str | Path) -> Path:
-        """Write the card as ``.md``, to be read, or ``.json``, to be collected."""
-        path = Path(path)
-        if path.suffix == ".json":
-            text = json.dumps(asdict(self), indent=1) + "\n"
-        elif path.suffix == ".md":
-            versions = ", ".join(f"{name} {v}" for name, v in self.versions.items())
-            text = f"{self}\nFingerprint {self.fingerprint}. Made with {versions}.\n"
-        else:
-            raise ValueError(f"path must end in .md or .json, got {path.name!r}")
-        path.write_text(text, encoding="utf-8", newline="\n")
-        return path
+    setup: Setup
+    race: Race
 
 
-def make_card(race: Race, *, title: str, by: str = "nobody", rng=0) -> Card:
+def card_text(
+    setup: Setup,
+    goals: Mapping[str, Sequence[int]],
+    own: Mapping[str, np.ndarray] | None = None,
+) -> str:
     """
-    Return the card of a race, with 95 % intervals over its runs.
+    Return the text to hand in; `goals` are those of each life, by robot.
 
-    >>> from abstransfer import navigation_tasks, parse_map, uniform_policy
-    >>> from abstransfer.project.racing import race
-    >>> tasks = navigation_tasks(parse_map("+---+\\n|.d*|\\n+---+"), reward="goal")
-    >>> go = {"eager": uniform_policy(tasks.possible)}
-    >>> card = make_card(race(tasks, go, steps=90, tau=90, n_runs=2), title="Try")
-    >>> card.counts
-    {'cells': 2, 'rooms': 1, 'goals': 1, 'abstract_states': 1}
+    `own` holds abstract policies (Z, A) of one's own, of names in ``setup.guides``.
     """
-    tasks, rng = race.tasks, np.random.default_rng(rng)
-    cost = np.where(tasks.mdp.terminal, 0.0, -1.0)  # Table 1 is about driving
-    road = replace(tasks, mdp=replace(tasks.mdp, reward=cost, gamma=0.99))
-    found, values = column(road, {}), column(road, race.guides)
-    counts = ("cells", "rooms", "goals", "abstract_states")
-    names = dict.fromkeys((*race.guides, "rand", "optimal"))
-    return Card(
-        title=title,
-        by=by,
-        building="\n\n".join(str(map_) for map_ in tasks.maps),
-        counts={name: int(found[name]) for name in counts},
-        settings={
-            "features": len(tasks.features),
-            "steps": race.steps,
-            "tau": race.tau,
-            "strategy": race.strategy,
-            "runs": len(race.goals["none"]),
-            "seed": race.seed,
-        },
-        drives={name: round(values[name], 4) for name in names},
-        goals={
-            name: _rounded(mean_interval(x, rng=rng)) for name, x in race.goals.items()
-        },
-        gains={
-            name: _rounded(relative_gain(x, race.goals["none"], rng=rng))
-            for name, x in race.goals.items()
-            if name != "none"
-        },
-        versions={"python": platform.python_version()}
-        | {name: metadata.version(name) for name in ("abstransfer", "numpy", "scipy")},
-    )
+    found, (steps, tau) = column_of(setup, own=own), scale(setup.map)
+    seen = "all" if setup.features == FEATURES else ", ".join(setup.features) or "none"
+    settings = {
+        "Building": ", ".join(f"{found[n]} {n.replace('_', ' ')}" for n in COUNTS),
+        "Advice from": setup.advice,
+        "Features": seen,
+        "Strategy": setup.strategy,
+        "Steps": steps,
+        "Tau": tau,
+        "Lives": setup.lives,
+        "Seed": SEED,
+    }
+    head = (*HEAD, *(f"life {i + 1}" for i in range(setup.lives)))
+    rows = [head, ["---"] * len(head)]
+    for name in ("none", *setup.robots, "optimal"):
+        mine = [int(n) for n in goals.get(name, ())]
+        value = f"{found[name]:.2f}" if name != "none" else ""
+        mean = f"{_half_up(sum(mine) / len(mine))}" if mine else ""
+        gain = _gain(mine, goals["none"]) if mine and name != "none" else ""
+        rows.append([name, value, mean, gain, *(mine or [""] * setup.lives)])
+    lines = [TITLE, "", *(f"- {name}: {value}" for name, value in settings.items())]
+    lines += ["", *(f"| {' | '.join(map(str, row))} |" for row in rows), ""]
+    return "\n".join([*lines, "```text", str(setup.map), "```", ""])
 
 
-def read_card(path: str | Path) -> Card:
-    """Return the card in a ``.json`` file; ValueError if there is none in it."""
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-        parts = {field.name: content[field.name] for field in fields(Card)}
-        for name in ("goals", "gains"):
-            parts[name] = {k: Interval(*v) for k, v in parts[name].items()}
-    except (ValueError, KeyError, TypeError) as error:
-        raise ValueError(f"{path}: not a card ({error})") from None
-    return Card(**parts)
+def verify(text: str, own: Mapping[str, np.ndarray] | None = None) -> list[Verified]:
+    """
+    Run the races of all cards in a text again.
+
+    The text may come by mail: quoted by ``>``, with blanks and lines of its own
+    before, between and after the cards.  What a card says must be right to the
+    last digit.
+
+    Parameters
+    ----------
+    text : str
+    own : dict from name to ndarray (Z, A), optional
+        Advice that a card only has the name of.
+
+    Raises
+    ------
+    ValueError
+        At the first line that the new race does not confirm: its number, what it
+        says, and what it should say.
+
+    Examples
+    --------
+    >>> from abstransfer.project.setup import Setup, run
+    >>> setup = Setup(parse_map("+---+\\n|.d*|\\n+---+"), guides=("eager",), lives=1)
+    >>> card = card_text(setup, run(setup).goals)
+    >>> [found.setup == setup for found in verify("By me.\\n" + card)]
+    [True]
+    >>> verify(card.replace("Tau: 400", "Tau: 9"))
+    Traceback (most recent call last):
+    ...
+    ValueError: line 8: the card says '- Tau: 9', the race again '- Tau: 400'
+    """
+    return [_verified(lines, own or {}) for lines in _cards(text)]
 
 
-def _table(rows: list[tuple[str, ...]]) -> list[str]:
-    """Return the lines of a table in Markdown whose columns stand under each other."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = [
-        f"| {' | '.join(f'{cell:{w}}' for cell, w in zip(row, widths, strict=True))} |"
-        for row in rows
-    ]
-    lines.insert(1, f"|{'|'.join('-' * (w + 2) for w in widths)}|")
-    return lines
+def _cards(text: str) -> list[list[tuple[int, str]]]:
+    """Return the lines of each card and their numbers, to its end, no blank ones."""
+    cards = []
+    for number, line in enumerate(text.splitlines(), 1):
+        line = re.sub(r"^\s*(> ?)+", "", line.replace("\xa0", " ")).strip()
+        if line == TITLE:
+            cards.append([])
+        is_inside = cards and (not cards[-1] or cards[-1][-1][1] != "```")
+        if line and is_inside:
+            cards[-1].append((number, line))
+    if not cards:
+        raise ValueError(f"text must hold a card, which begins with {TITLE!r}")
+    return cards
 
 
-def _rounded(interval: Interval) -> Interval:
-    return Interval(*(round(float(x), 6) for x in interval))
+def _setup(lines: list[tuple[int, str]]) -> Setup:
+    """Return what a card says was raced; what it lacks is named."""
+    first, bare = lines[0][0], [line for _, line in lines]
+
+    def of(name):
+        for number, line in lines:
+            if line.startswith(f"- {name}: "):
+                return number, line.split(": ", 1)[1]
+        raise ValueError(f"line {first}: the card must hold '- {name}: ...'")
+
+    if "```text" not in bare or "```" not in bare:
+        wanted = "a building between ```text and ```"
+        raise ValueError(f"line {first}: the card must hold {wanted}")
+    above, below = bare.index("```text"), bare.index("```")
+    rows = [line for line in bare[:above] if line.startswith("| ")]
+    table = [row.strip("| ").split(" | ") for row in rows]
+    head, (number, lives) = [*table, []][0], of("Lives")
+    columns = sum(name.startswith("life ") for name in head)
+    if lives != str(columns):  # before anything is run for so long
+        said = f"the card says '- Lives: {lives}', its table has {columns}"
+        raise ValueError(f"line {number}: {said}")
+    seen = of("Features")[1]
+    features = {"all": FEATURES, "none": ()}.get(seen, tuple(seen.split(", ")))
+    raced = tuple(row[0] for row in table if row[-1].isdecimal() and row[0] != "none")
+    map_ = parse_map("\n".join(bare[above + 1 : below]))
+    strategy, advice = of("Strategy")[1], of("Advice from")[1]
+    return Setup(map_, features, raced, advice, strategy, columns)
 
 
-def _text(interval: Interval | None, factor: float, form: str, unit: str) -> str:
-    """Return an interval as "6 [5, 7]", in the given form and unit."""
-    if interval is None:
+def _verified(lines: list[tuple[int, str]], own: Mapping) -> Verified:
+    setup = _setup(lines)
+    for name in setup.guides:
+        if name not in (*GUIDES, *own):
+            raise ValueError(f"own must hold {name!r}: the card has its name only")
+    again = run(setup, own)
+    right = [line for line in card_text(setup, again.goals, own).splitlines() if line]
+    missing = [(lines[-1][0], "")] * len(right)
+    for (number, said), wanted in zip([*lines, *missing], right, strict=False):
+        if said != wanted:
+            difference = f"the card says {said!r}, the race again {wanted!r}"
+            raise ValueError(f"line {number}: {difference}")
+    return Verified(setup, again)
+
+
+def _gain(mine: Sequence[int], none: Sequence[int]) -> str:
+    """Return how many more goals than none, as "+1.5 %"; nothing over nothing."""
+    if not sum(none):
         return ""
-    estimate, low, high = (form.format(factor * x) for x in interval)
-    text = f"{estimate} [{low}, {high}]"
-    return (estimate if np.isnan(interval.low) else text) + unit
+    return f"{_half_up(1000 * sum(mine) / sum(none) - 1000) / 10:+.1f} %"
+
+
+def _half_up(x: float) -> int:
+    """Return a whole number as JavaScript rounds: halves go up."""
+    return int(np.floor(x + 0.5))

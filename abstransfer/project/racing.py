@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..experiments.plan import SEED
+from ..experiments.stats import Interval, relative_gain
 from ..learning import q_learning_runs
 from ..learning.settings import exact_seed, whole
 from ..mdp import check_rows
@@ -30,6 +31,13 @@ class Race(NamedTuple):
     tau: int
     strategy: str
     seed: int
+
+    def gains(self, rng=0) -> dict[str, Interval]:
+        """Return by which share each robot exceeds "none": 0.1 is 10 % more goals."""
+        none = self.goals["none"]
+        return {
+            name: relative_gain(self.goals[name], none, rng=rng) for name in self.guides
+        }
 
 
 def race(

@@ -6,7 +6,7 @@ The scene of page 11 runs the same races, to the last goal.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -16,10 +16,10 @@ from ..abstraction import FEATURES
 from ..builders import BUILDERS, abstract_policies
 from ..driving import column
 from ..experiments.arms import PAPER_STEPS
+from ..learning.settings import STRATEGIES, choice
 from ..maps import Map, read_map
 from ..navigation import NavigationTasks, navigation_tasks
 from ..policies import uniform_policy
-from ..solvers import evaluate_policy
 from .racing import Race, race
 
 GUIDES = (*BUILDERS, "eager", "rand")
@@ -34,9 +34,15 @@ class Setup(NamedTuple):
     map: Map  # where the robots learn
     features: tuple[str, ...] = FEATURES  # what they see
     guides: tuple[str, ...] = (*BUILDERS, "eager")
-    advice: str = "source"  # building the pages come from; "own" is the map itself
+    advice: str = "source"  # building the advice comes from; "own" is the map itself
     strategy: str = "hard"
     lives: int = 5
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of the robots with advice, in the order in which they are told."""
+        known = tuple(name for name in GUIDES if name in self.guides)
+        return known + tuple(name for name in self.guides if name not in GUIDES)
 
 
 def scale(map_: Map) -> tuple[int, int]:
@@ -53,50 +59,53 @@ def scale(map_: Map) -> tuple[int, int]:
     return steps, unit * int(PAPER_TAU * steps / unit + 0.5)
 
 
-def pages(setup: Setup, tasks: NavigationTasks) -> dict[str, np.ndarray]:
+def policies(
+    setup: Setup, tasks: NavigationTasks, own: Mapping[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
     """Return the abstract policies (Z, A) that advise in a project, by name."""
-    chosen = tuple(name for name in GUIDES if name in setup.guides)
+    known = {
+        "eager": uniform_policy(tasks.possible),
+        "rand": uniform_policy(np.ones_like(tasks.possible)),
+        **(own or {}),
+    }
     origin = setup.map if setup.advice == "own" else read_map(setup.advice)
-    built = tuple(name for name in chosen if name in BUILDERS)
-    policies = dict(_written(origin, setup.features, built))
-    policies["eager"] = uniform_policy(tasks.possible)
-    policies["rand"] = uniform_policy(np.ones_like(tasks.possible))
-    return {name: policies[name] for name in chosen}
+    built = tuple(name for name in setup.robots if name in BUILDERS)
+    known |= dict(_built(origin, setup.features, built))
+    return {name: known[name] for name in setup.robots}
 
 
-def run(setup: Setup) -> Race:
+def run(setup: Setup, own: Mapping[str, np.ndarray] | None = None) -> Race:
     """Let the robots of a project live; the browser finds the same goals."""
-    for name in ("advice", "strategy"):
-        known = {"advice": ADVICE, "strategy": ("hard", "soft")}[name]
-        if getattr(setup, name) not in known:
-            value = getattr(setup, name)
-            raise ValueError(f"{name} must be one of {known}, got {value!r}")
+    choice("advice", setup.advice, ADVICE)
+    choice("strategy", setup.strategy, STRATEGIES)
     tasks = navigation_tasks(setup.map, reward="goal", features=setup.features)
     steps, tau = scale(setup.map)
     options = {"strategy": setup.strategy, "n_runs": setup.lives}
-    return race(tasks, pages(setup, tasks), steps=steps, tau=tau, **options)
+    return race(tasks, policies(setup, tasks, own), steps=steps, tau=tau, **options)
 
 
-def drives(setup: Setup, guides: Sequence[str] = GUIDES) -> dict[str, float]:
+def column_of(setup: Setup, own: Mapping[str, np.ndarray] | None = None) -> dict:
+    """Return the column of Table 1 that the map of a project and its advice make."""
+    tasks = navigation_tasks(setup.map, features=setup.features)
+    return column(tasks, policies(setup, tasks, own))
+
+
+def drives(setup: Setup, names: Sequence[str] = GUIDES) -> dict[str, float]:
     """
-    Return how well pages drive in the map of a project, as in Table 1.
+    Return how well advice drives in the map of a project, as in Table 1.
 
     The last entry is the best driver's, "optimal".
 
     >>> {k: round(v) for k, v in drives(Setup(read_map("source")), ["nd"]).items()}
     {'nd': -44, 'optimal': -14}
     """
-    road = navigation_tasks(setup.map, features=setup.features)
-    found = pages(setup._replace(guides=tuple(guides)), road)
-    values = {
-        name: float(evaluate_policy(road.mdp, policy[road.rho]).mean())
-        for name, policy in found.items()
-    }
-    return values | {"optimal": column(road, {})["optimal"]}
+    setup = setup._replace(guides=tuple(names))
+    found = column_of(setup)
+    return {name: found[name] for name in (*setup.robots, "optimal")}
 
 
 @lru_cache(maxsize=32)
-def _written(origin: Map, features: tuple, builders: tuple) -> tuple:
+def _built(origin: Map, features: tuple, builders: tuple) -> tuple:
     """Return abstract policies built from a map, by name, as pairs."""
     tasks = navigation_tasks(origin, features=features)
     return tuple(abstract_policies(tasks, builders).items())

@@ -1,6 +1,6 @@
 """Races in a building of one's own, and the cards they leave."""
 
-import json
+import re
 
 import numpy as np
 import pytest
@@ -13,9 +13,11 @@ from abstransfer import (
     read_map,
     uniform_policy,
 )
+from abstransfer.abstraction import FEATURES
 from abstransfer.learning import q_learning
-from abstransfer.project.card import make_card, read_card
+from abstransfer.project.card import card_text, verify
 from abstransfer.project.racing import race
+from abstransfer.project.setup import Setup, run
 
 ROOMS = parse_map(
     "+-----+-----+\n"
@@ -45,11 +47,6 @@ def guides(tasks):
 @pytest.fixture(scope="module")
 def ran(tasks, guides):
     return race(tasks, guides, steps=20_000, tau=2_000, n_runs=5)
-
-
-@pytest.fixture(scope="module")
-def card(ran):
-    return make_card(ran, title="Two rooms", by="A. Student")
 
 
 # The race
@@ -85,7 +82,10 @@ def test_a_race_takes_features_of_ones_own():
     [
         ({"guides": {"none": np.ones((1, 1))}}, "called 'none'"),
         ({"guides": {"nd": np.ones((4, 8))}}, r"'nd' must have shape \(2048, 8\)"),
-        ({"n_runs": 0}, "n_runs must be at least 1"),
+        ({"guides": {"nd": np.full((2048, 8), np.nan)}}, "'nd' must not be negative"),
+        ({"guides": {"nd": np.ones((2048, 8))}}, "'nd' must sum to 1 in each row"),
+        ({"n_runs": 0}, "n_runs must be a whole number from 1"),
+        ({"seed": 2015.0}, "seed must be an int >= 0, not a float, got 2015.0"),
         ({"strategy": "firm"}, "strategy must be one of"),
     ],
 )
@@ -96,94 +96,144 @@ def test_a_bad_argument_is_refused_by_name(tasks, guides, options, message):
         race(tasks, **settings)
 
 
+def test_gains_compare_each_robot_with_the_one_without_advice(ran):
+    gains = ran.gains()
+    none = ran.goals["none"].mean()
+
+    assert list(gains) == ["nd", "prob", "eager"]
+    for name, gain in gains.items():
+        assert gain.estimate == pytest.approx(ran.goals[name].mean() / none - 1)
+        assert gain.low <= gain.estimate <= gain.high
+    assert ran.gains() == gains
+
+
 # The card
 
 
-def test_a_card_says_how_the_guides_drive_as_table_1_does(card, guides):
+SMALL = parse_map("+---+---+\n|. .d*  |\n+---+---+")
+SETUP = Setup(SMALL, FEATURES[8:], ("eager", "rand"), "own", "soft", lives=2)
+
+
+@pytest.fixture(scope="module")
+def card():
+    return card_text(SETUP, run(SETUP).goals)
+
+
+def test_a_card_says_how_advice_drives_as_table_1_does():
+    setup = Setup(ROOMS, guides=("nd", "rand"), lives=1)
     tasks = navigation_tasks(ROOMS)  # at a cost of 1 a step
-    value = evaluate_policy(tasks.mdp, guides["nd"][tasks.rho]).mean()
+    nd = abstract_policies(navigation_tasks(read_map("source")), ["nd"])["nd"]
+    value = evaluate_policy(tasks.mdp, nd[tasks.rho]).mean()
+    text = card_text(setup, {"none": [5], "nd": [6], "rand": [5]})
+    table = text.partition("```")[0].splitlines()
+    rows = [line.split(" | ") for line in table if line.startswith("| ")]
 
-    assert card.drives["nd"] == pytest.approx(value, abs=1e-4)
-    assert card.drives["rand"] < card.drives["prob"] < card.drives["optimal"] < 0
-
-
-def test_a_card_counts_and_compares(card, ran):
-    assert card.counts == {
-        "cells": 24,
-        "rooms": 2,
-        "goals": 2,
-        "abstract_states": len(np.unique(ran.tasks.rho[~ran.tasks.mdp.terminal])),
-    }
-    means = {name: goals.mean() for name, goals in ran.goals.items()}
-    assert card.goals["nd"].estimate == pytest.approx(means["nd"])
-    gain = means["nd"] / means["none"] - 1
-    assert card.gains["nd"].estimate == pytest.approx(gain, abs=1e-6)
-    assert card.gains["nd"].low <= gain <= card.gains["nd"].high
-    assert list(card.gains) == ["nd", "prob", "eager"]
+    assert [row[0] for row in rows[2:]] == ["| none", "| nd", "| rand", "| optimal"]
+    assert rows[3][1:] == [f"{value:.2f}", "6", "+20.0 %", "6 |"]
+    assert "- Building: 24 cells, 2 rooms, 2 goals, " in text
+    assert text.endswith(f"```text\n{ROOMS}\n```\n")
 
 
-def test_the_same_race_gives_the_same_card(card, tasks, guides):
-    again = race(tasks, guides, steps=20_000, tau=2_000, n_runs=5)
-    again = make_card(again, title="Two rooms", by="A. Student")
+def test_a_card_is_confirmed_by_the_race_run_again(card):
+    [found] = verify(card)
 
-    assert again == card
-    assert str(again) == str(card)
-
-
-def test_a_card_shows_when_it_was_touched(card, ran):
-    other = make_card(ran, title="Two rooms", by="B. Student")
-
-    assert other.fingerprint != card.fingerprint
+    assert found.setup == SETUP
+    assert card_text(found.setup, found.race.goals) == card
 
 
-def test_a_card_is_read_back_from_its_file(card, tmp_path):
-    again = read_card(card.save(tmp_path / "card.json"))
-
-    assert again == card
-    assert again.fingerprint == card.fingerprint
-    assert parse_map(again.building) == ROOMS
+def quoted(text, mark="> "):
+    return "".join(f"{mark}{line}".rstrip() + "\n" for line in text.splitlines())
 
 
-def test_the_text_of_a_card_has_a_row_for_each_robot(card, tmp_path):
-    text = card.save(tmp_path / "card.md").read_text()
-    table = text.split("```")[0].split("\n")
-    rows = [line for line in table if line.startswith("| ")]
-
-    assert text.startswith("# Two rooms\n\nBy A. Student. Building ")
-    assert [row.split()[1] for row in rows[1:]] == [
-        "none",
-        "nd",
-        "prob",
-        "eager",
-        "rand",
-        "optimal",
-    ]
-    assert all(row.count("|") == 5 for row in rows)
-    assert str(ROOMS) in text
-    assert card.fingerprint in text
-    assert "numpy" in text
-    assert "numpy" not in str(card)
+BY_MAIL = {
+    "line ends of another system": lambda card: card.replace("\n", "\r\n"),
+    "blanks at line ends": lambda card: card.replace("\n", "  \t\n"),
+    "quoted": quoted,
+    "quoted twice": lambda card: quoted(quoted(card)),
+    "quoted without a blank": lambda card: quoted(card, ">"),
+    "set in": lambda card: quoted(card, "    "),
+    "blanks that do not break": lambda card: card.replace(" ", "\xa0"),
+    "empty lines lost": lambda card: card.replace("\n\n", "\n"),
+    "empty lines between": lambda card: card.replace("\n", "\n\n"),
+    "words around": lambda card: f"Dear all,\n\n{card}\n- Tau: 5\n| I | 5 |\n",
+    "no line end": lambda card: card.strip(),
+}
 
 
-def test_one_run_has_no_interval(tasks, guides):
-    card = make_card(race(tasks, guides, steps=5_000, tau=50, n_runs=1), title="Once")
-
-    assert "nan" not in str(card)
-
-
-@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"goals": 3}'])
-def test_what_is_no_card_is_refused_with_its_name(tmp_path, text):
-    path = tmp_path / "other.json"
-    path.write_text(text)
-
-    with pytest.raises(ValueError, match=r"other\.json: not a card"):
-        read_card(path)
+@pytest.mark.parametrize("sent", BY_MAIL.values(), ids=BY_MAIL)
+def test_a_card_may_come_by_mail(card, sent):
+    assert sent(card) != card
+    assert [found.setup for found in verify(sent(card))] == [SETUP]
 
 
-def test_a_card_is_saved_as_text_or_data_only(card, tmp_path):
-    with pytest.raises(ValueError, match=r"end in \.md or \.json, got 'card\.pdf'"):
-        card.save(tmp_path / "card.pdf")
+def test_all_cards_of_a_text_are_run_again(card):
+    other = SETUP._replace(lives=1, strategy="hard")
+    text = f"Ann:\n{card}\nBen:\n{quoted(card_text(other, run(other).goals))}"
 
-    counts = json.loads(json.dumps(card.counts))  # numbers of Python, not of numpy
-    assert counts == card.counts
-    assert counts
+    assert [found.setup for found in verify(text)] == [SETUP, other]
+    lines = text.splitlines()
+    tau = max(i for i, line in enumerate(lines) if line.startswith("> - Tau: "))
+    lines[tau] += "0"
+    with pytest.raises(ValueError, match=f"^line {tau + 1}: the card says '- Tau: "):
+        verify("\n".join(lines))
+
+
+def test_no_digit_can_be_changed_unseen(card):
+    """Each of them; the line that is named is the line that was changed."""
+    places = [i for i, sign in enumerate(card) if sign.isdecimal()]
+    for i in places:
+        other = "1" if card[i] != "1" else "2"
+        line = card[:i].count("\n") + 1
+        with pytest.raises(ValueError, match=f"^line {line}: the card says"):
+            verify(card[:i] + other + card[i + 1 :])
+
+    assert len(places) > 60
+
+
+def test_no_line_can_be_left_out_or_added(card):
+    """But the row of a robot with advice: that is the card of a race without it."""
+    lines = card.splitlines()
+    for i, line in enumerate(lines):
+        if line and not line.startswith(("| eager", "| rand")):
+            with pytest.raises(ValueError, match=r"line \d|text must|row \d|H x W"):
+                verify("\n".join(lines[:i] + lines[i + 1 :]))
+        if i:
+            with pytest.raises(ValueError, match=r"line \d+|row \d"):
+                verify("\n".join([*lines[:i], "me too", *lines[i:]]))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("# Result card", "# Result", "text must hold a card, which begins with '# R"),
+        ("- Seed", "- Seeds", "line 10: the card says '- Seeds: 2015', the race ag"),
+        ("- Strategy", "Strategy", "line 1: the card must hold '- Strategy: ...'"),
+        ("```text", "", "line 1: the card must hold a building between ```text and"),
+        ("Lives: 2", "Lives: 999999", "line 9: the card says '- Lives: 999999', its"),
+        ("from: own", "from: me", "advice must be one of"),
+        ("| eager", "| common sense", "own must hold 'common sense': the card has"),
+    ],
+)
+def test_what_is_no_card_is_refused_by_what_it_lacks(card, old, new, said):
+    with pytest.raises(ValueError, match=f"^{re.escape(said)}"):
+        verify(card.replace(old, new))
+
+
+def test_advice_of_ones_own_is_handed_in_beside_the_card(card):
+    possible = navigation_tasks(SMALL, features=SETUP.features).possible
+    own = {"common sense": uniform_policy(possible)}  # as the eager robot's
+    setup = SETUP._replace(guides=("eager", "common sense"))
+    text = card_text(setup, run(setup, own).goals, own)
+    [found] = verify(text, own)
+    rows = {x[0]: x[1:] for x in (line.split(" | ") for line in text.splitlines())}
+
+    assert found.setup == setup
+    assert rows["| common sense"] == rows["| eager"]
+
+
+def test_a_race_without_a_goal_has_no_gain():
+    text = card_text(SETUP, {"none": [0, 0], "eager": [0, 0], "rand": [0, 0]})
+
+    assert re.search(
+        r"^\| eager \| -\d+\.\d\d \| 0 \|  \| 0 \| 0 \|$", text, re.MULTILINE
+    )

@@ -9,7 +9,7 @@ import traitlets
 from ...abstraction import FEATURES
 from ...builders import BUILDERS
 from ...plotting.style import count, number
-from ...project.project_card import card_text
+from ...project.card import card_text
 from ...project.racing import Race
 from ...project.setup import ADVICE, GUIDES, Setup, drives, run
 from ..base import MapTrait, Still
