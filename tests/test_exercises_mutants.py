@@ -90,8 +90,8 @@ def bent(exercise):
 
 @pytest.mark.parametrize("exercise", CODING.values(), ids=CODING)
 def test_every_mutant_of_a_solution_that_differs_is_refused(exercise):
-    judged = {name: bool(check(exercise.key, f)) for name, f in bent(exercise)}
+    judged = [(name, bool(check(exercise.key, f))) for name, f in bent(exercise)]
 
     assert len(judged) >= 4
-    accepted = {name for name, right in judged.items() if right}
+    accepted = {name for name, right in judged if right}
     assert accepted == set(EQUIVALENT.get(exercise.key, ()))

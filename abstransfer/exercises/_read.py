@@ -56,7 +56,10 @@ def numbers(answer) -> np.ndarray:
     """Return an answer as an array of floats; a text may hold a formula."""
     blank(answer)
     if isinstance(answer, str):
-        found = [formula(part) for part in re.split(r";|,\s+|\band\b", plain(answer))]
+        text = plain(answer)
+        if len(re.findall(r",(?=\d)", text)) == 1:  # of decimals
+            text = re.sub(r",(?=\d)", ".", text)
+        found = [formula(part) for part in re.split(r";|,|\band\b", text)]
         answer = found[0] if len(found) == 1 else found
     elif isinstance(answer, Iterator):
         answer = list(islice(answer, MOST))
@@ -130,7 +133,7 @@ def forms(answer) -> list:
 
 def plain(text: str) -> str:
     """Return a text with the signs of a keyboard, without quotes and what they hold."""
-    text = str.__str__(text).translate(SIGNS).strip(QUOTES)
+    text = str.__str__(text).translate(SIGNS).strip(QUOTES).rstrip(QUOTES + ".")
     text = re.split(r"[=\u2248~]", text)[-1]  # "x = 5" says 5
     return re.sub(r"(?<=\d) (?=\d{3}(?!\d))", "", text)  # 5 000
 

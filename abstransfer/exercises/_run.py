@@ -62,22 +62,22 @@ def run(work):
     KeyboardInterrupt
         If the reader interrupts; `work` is stopped first.
     """
-    done = []
+    done, ended = [], threading.Event()
     with as_it_was() as heard:
         context = contextvars.copy_context()
         thread = threading.Thread(
-            target=context.run, args=(_guarded, work, heard, done), daemon=True
+            target=context.run, args=(_guarded, work, heard, done, ended), daemon=True
         )
-        thread.start()
         try:
-            _wait(thread, LIMIT)
+            thread.start()
+            _wait(ended, LIMIT)
         except KeyboardInterrupt:
             raise KeyboardInterrupt("the answer was not judged") from None
         finally:  # also where the reader interrupts
-            late = thread.is_alive()
+            late = not ended.is_set()
             if late:
-                _stop(thread)
-    result, problem = (None, _too_long(thread)) if late else done[0]
+                _stop(thread, ended)
+    result, problem = (None, _too_long(ended)) if late else done[0]
     if problem:
         reason = Unreadable(problem)
         reason.printed = heard.text
@@ -85,7 +85,7 @@ def run(work):
     return result
 
 
-def _guarded(work, heard, done):
+def _guarded(work, heard, done, ended):
     """Note what `work` returns, or in words why it does not."""
     try:
         with np.errstate(all="ignore"):
@@ -94,6 +94,8 @@ def _guarded(work, heard, done):
         done.append((None, str(reason)))
     except BaseException as error:
         done.append((None, f"It cannot be read: {described(error)}"))
+    finally:
+        ended.set()
 
 
 def described(error: BaseException) -> str:
@@ -106,33 +108,29 @@ def described(error: BaseException) -> str:
     return f"`{name}: {said}`" if said else f"`{name}`"
 
 
-def _wait(thread, seconds):
+def _wait(ended, seconds):
+    """Wait for an event; not for a thread: interrupted, that is thought to be dead."""
     end = time.monotonic() + seconds
-    while thread.is_alive() and (left := end - time.monotonic()) > 0:
-        thread.join(min(left, SLICE))
+    while (left := end - time.monotonic()) > 0 and not ended.wait(min(left, SLICE)):
+        pass
 
 
-def _stop(thread):
+def _stop(thread, ended):
     """Put an exception into a thread, again and again if it catches it."""
     end = time.monotonic() + PATIENCE
-    while thread.is_alive() and time.monotonic() < end:
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(
-            ctypes.c_ulong(thread.ident), ctypes.py_object(Stopped)
-        )
-        thread.join(SLICE)
+    while not ended.is_set() and time.monotonic() < end:
+        if thread.ident:
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                ctypes.c_ulong(thread.ident), ctypes.py_object(Stopped)
+            )
+        ended.wait(SLICE)
 
 
-def _too_long(thread) -> str:
-    words = (
-        f"It did not come to an end within {LIMIT:g} seconds and was stopped. "
-        "Is there a loop whose condition stays true?"
-    )
-    if thread.is_alive():
-        words = (
-            f"It did not come to an end within {LIMIT:g} seconds, could not be stopped "
-            "and still runs. Restart the kernel"
-        )
-    return words
+def _too_long(ended) -> str:
+    words = f"It did not come to an end within {LIMIT:g} seconds"
+    if ended.is_set():
+        return f"{words} and was stopped. Is there a loop whose condition stays true?"
+    return f"{words}, could not be stopped and still runs. Restart the kernel"
 
 
 @contextlib.contextmanager
