@@ -38,25 +38,27 @@ def mutants(source):
 
     >>> for name, _ in mutants("def f(x): return x + 1"):
     ...     print(name)
-    x + 1 -> x - 1
-    x + 1 -> x
-    x + 1 -> 1
-    1 -> 2
-    1 -> 0
+    return x + 1: x + 1 -> x - 1
+    return x + 1: x + 1 -> x
+    return x + 1: x + 1 -> 1
+    return x + 1: 1 -> 2
+    return x + 1: 1 -> 0
     """
     tree = ast.parse(source)
-    tree.body[0].body = [  # a docstring is no code
-        statement
-        for statement in tree.body[0].body
-        if not (isinstance(statement, ast.Expr) and ast.get_docstring(tree.body[0]))
-        or not isinstance(statement.value, ast.Constant)
-    ]
+    body = tree.body[0].body
+    if ast.get_docstring(tree.body[0]):  # it is no code
+        del body[0]
+    lines = {}  # of each node, the first line of the statement that it is in
+    for statement in (node for node in ast.walk(tree) if isinstance(node, ast.stmt)):
+        line = ast.unparse(statement).split("\n")[0]
+        lines.update(dict.fromkeys(ast.walk(statement), line))  # the innermost is last
     for place, node in enumerate(ast.walk(tree)):
         for other in _others(node):
             bent = copy.deepcopy(tree)
             target = list(ast.walk(bent))[place]
             bent = ast.fix_missing_locations(_Put(target, other).visit(bent))
-            yield f"{ast.unparse(node)} -> {ast.unparse(other)}", ast.unparse(bent)
+            change = f"{ast.unparse(node)} -> {ast.unparse(other)}"
+            yield f"{lines.get(node)}: {change}", ast.unparse(bent)
 
 
 class _Put(ast.NodeTransformer):

@@ -15,16 +15,28 @@ CODING = {exercise.key: exercise for exercise in all_exercises() if exercise.cas
 # Arguments that a right solution does not use.
 UNUSED = {("ex-3-1", "cut"): "a step that was cut is learned from like any other"}
 # Mutants that are right, by what they change and why it changes nothing.
+EACH_TASK = "for policy, rho in zip(policies, rhos, strict=True):: True -> False"
+LENGTHS = (
+    "both lists have one array for each task, so there is nothing to be strict about"
+)
+ACTIONS = "all tasks have the same actions, so any of them tells how many"
 EQUIVALENT = {
     "ex-3-2": {
-        "rng.random() < epsilon -> rng.random() <= epsilon": "equal once in 2**53 draws"
+        "if rng.random() < epsilon:: rng.random() < epsilon -> rng.random() <= epsilon":
+            "a draw equals epsilon once in 2**53 times",
     },
     "ex-5-1": {
-        "0 -> -1": "all tasks have the same actions: policies[-1] is as good",
-        "1e-300 -> 1.0": "a row with votes has at least one, for each state casts one",
+        EACH_TASK: LENGTHS,
+        "votes = np.zeros((n_abstract, policies[0].shape[1])): 0 -> -1": ACTIONS,
+        "return votes / np.maximum(total, 1e-300): 1e-300 -> 1.0":
+            "a state casts one vote in all, so a row with votes has one or more",
     },
-    "ex-8-1": {"t > tau -> t >= tau": "(tau - t) / tau is 0 at t = tau"},
-}
+    "ex-5-2": {
+        EACH_TASK: LENGTHS,
+        "votes = np.zeros((n_abstract, np.shape(policies[0])[1])): 0 -> -1": ACTIONS,
+    },
+    "ex-8-1": {"if t > tau:: t > tau -> t >= tau": "(tau - t) / tau is 0 at t = tau"},
+}  # fmt: skip
 
 
 def shape(argument):
