@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from html import escape
+from importlib import import_module
 from typing import NamedTuple
 
 import anywidget
@@ -89,7 +90,7 @@ class ArrayTrait(traitlets.TraitType):
 class Scene(anywidget.AnyWidget):
     """A scene of the book; each kind is a class of its own."""
 
-    scene = ""  # its name among the scripts
+    scene = ""  # its name among the scripts, and of its folder
 
     def __init__(self, **options):
         known = self.state_names()
@@ -140,8 +141,8 @@ class Scene(anywidget.AnyWidget):
         return self.changed
 
     def still(self) -> Still:
-        """Return what stands for the scene where no script runs."""
-        raise NotImplementedError
+        """Return what stands for the scene where no script runs: its `still.py`."""
+        return import_module(f".{self.scene}.still", __package__).draw(self)
 
     def __repr__(self) -> str:
         inside = [

@@ -15,7 +15,7 @@ from abstransfer.driving import PAPER
 from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Ballot
 from abstransfer.scenes.ballot.widget import PAGES, WINNER
-from abstransfer.scenes.dial.widget import BETAS
+from abstransfer.scenes.parts.betas import BETAS
 
 SMALL = maps.read_map("source")
 THREE = "+-+-+-+\n|. . .|\n+d+d+d+\n|*|*|*|\n+ + + +\n| | | |\n+-+-+-+"

@@ -13,7 +13,7 @@ from abstransfer import maps
 from abstransfer.abstraction import FEATURES
 from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Paint
-from abstransfer.scenes.parts.counts import count_states
+from abstransfer.scenes.paint.counts import count_states
 
 SMALL, LARGE = maps.read_map("source"), maps.read_map("target")
 TWO_CELLS = "+---+\n|.d*|\n+---+"

@@ -15,7 +15,6 @@ from abstransfer.scenes import Microscope, bundle
 from abstransfer.scenes import files as front
 from abstransfer.scenes.base import VIEW
 from abstransfer.scenes.microscope.widget import STARTS, STEPS, own_trace
-from abstransfer.scenes.parts.stills import building_svg
 
 SCENES = [
     getattr(scenes, name)
@@ -138,21 +137,6 @@ def test_every_colour_that_is_used_is_defined():
         "--ab-bar",
     }
     assert missing <= set_by_scripts
-
-
-# Stills
-
-
-def test_a_still_marks_goals_doors_and_the_robot():
-    map_ = maps.parse_map("+---+-+\n|. .d*|\n+---+-+")
-    svg = building_svg(map_, "A corridor and a room.", values=[0, 0.5, np.nan], robot=0)
-    soup = BeautifulSoup(svg, "html.parser")
-
-    assert soup.svg["aria-label"] == "A corridor and a room."
-    assert len(soup.find_all("circle")) == 1
-    assert svg.count("translate(50 10)") == 1
-    assert "fill-opacity:0.5" in svg
-    assert svg.count("M40 3.6v12.8") == 2  # one door: its rim and its inside
 
 
 # Traits

@@ -1,43 +1,74 @@
-"""Still pictures of a ballot box, small and the same every time."""
+"""The still of the ballot box: the box, its probabilities, and values by the dial."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from html import escape
+from collections.abc import Sequence
 
-from ..parts.curves import WIDTH, _line, _text
-from ..parts.stills import paint
+import numpy as np
 
-LINE = 44  # height of an action: its name, and two bars
-FULL = 190  # width of a bar of probability 1
+from ...abstraction import LABELS
+from ...driving import PAPER
+from ...navigation import navigation_tasks
+from ...plotting.style import count, number
+from ..base import Still
+from ..parts.betas import BETAS, HEIGHT, driving_chart, policy_at
+from ..parts.building import draw_building
+from ..parts.charts import Axis, Row, row_chart
+from ..parts.svg import WIDTH, picture
+from .widget import PAGES, Ballot
 
 
-def box_svg(rows: Mapping[str, Sequence[tuple[str, float]]], alt: str) -> str:
-    """
-    Return bars of probabilities as SVG, several for each action.
-
-    Parameters
-    ----------
-    rows : dict from action to (name, probability) of each bar
-    alt : str
-        What the picture shows.
-    """
-    parts = []
-    for i, (action, bars) in enumerate(rows.items()):
-        top = LINE * i + 12
-        parts.append(_text(0, top, action, "start"))
-        for j, (name, share) in enumerate(bars):
-            y = top + 11 + 13 * j
-            start = 60
-            parts.append(_text(start - 5, y + 4, name, "end"))
-            color = paint("accent") if j == 0 else paint("faint")
-            if share > 0:
-                parts.append(_line(f"M{start} {y}h{FULL * share:.1f}", color, "", 8))
-            parts.append(
-                _text(start + FULL * share + 5, y + 4, f"{share:.2f}", "start")
-            )
-    looks = f"font:11px sans-serif;fill:{paint('ink')}"
-    return (
-        f'<svg role="img" viewBox="0 0 {WIDTH} {LINE * len(rows) + 4}" '
-        f'aria-label="{escape(alt)}" style="{looks}">{"".join(parts)}</svg>'
+def draw(scene: Ballot) -> Still:
+    """Return the cells of the box, the bars, and the curves over the dial."""
+    pages = {name: policy_at(scene.source, beta) for name, beta in PAGES.items()}
+    voted = np.flatnonzero(scene.votes)
+    bars = []
+    for a in voted:
+        bars.append(Row(LABELS[a].replace("_", " ")))
+        for name in ("Prob", "ND"):
+            share = pages[name][scene.z, a]
+            bars.append(Row(name, f"{share:.2f}", name.lower(), bar=share))
+    lines = {
+        name: [(beta, scene.driving(name, beta)) for beta in BETAS]
+        for name in ("source", "target")
+    }
+    beta, best = max(lines["source"], key=lambda point: point[1])
+    places = {**PAGES, f"\u03b2 = {beta:g}": beta}
+    worth = {
+        name: {where: scene.driving(where, at) for where in lines}
+        for name, at in places.items()
+    }
+    known = {name: number(of["source"]) for name, of in worth.items()}
+    caption = (
+        f"A ballot box. {count(round(scene.votes.sum()), 'state')} of the small "
+        f"building vote for {count(len(voted), 'action')}. Of the pages of advice "
+        f"that such boxes make, the one at \u03b2 = {beta:g} drives best in the "
+        f"small building: a cell is worth {number(best)}, with Prob {known['Prob']}, "
+        f"with ND {known['ND']}, if the winner takes all {known['Winner']}."
     )
+    drives = driving_chart(lines, beta, "mean value of a cell")
+    alt = f"The dial: best in the small building at {beta:g}."
+    words = "What Prob and ND make of the votes in the box."
+    shares = row_chart(bars, Axis(0, 1, {}, "probability"), words, tall=17)
+    frames = [_box(scene), shares, picture(drives, alt, WIDTH, HEIGHT)]
+    rows = [
+        (name, *(number(of[where], 2) for where in lines), *_paper(name))
+        for name, of in worth.items()
+    ]
+    head = ("page", "small building", "large", "paper: small", "large")
+    return Still(frames, caption, head, rows)
+
+
+def _box(scene: Ballot) -> str:
+    task = min(scene.task, len(scene.source.goals) - 1)
+    tasks = navigation_tasks(scene.source, keep=[task])
+    lit = (tasks.rho == scene.z) & ~tasks.mdp.terminal
+    alt = f"The small building: {count(lit.sum(), 'cell')} of the box."
+    values = np.where(lit, 1.0, np.nan)
+    return draw_building(scene.source, alt, values=values, goal=tasks.goal[0])
+
+
+def _paper(name: str) -> Sequence[str]:
+    """Return the paper's values of a page, in both buildings, if it has them."""
+    values = [PAPER[where].get(name.lower()) for where in ("source", "target")]
+    return ["\u2013" if v is None else number(v, 2) for v in values]

@@ -1,71 +1,55 @@
-"""Still pictures of box plots, small and the same every time."""
+"""The still of the filling boxes: box plots after 3, 10 and all lives."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from html import escape
+from ...experiments.results import read_results
+from ...experiments.stats import mean_interval
+from ...reproduction.optional_stopping import FIRST_LOOK, SAME
+from ..base import Still
+from ..parts.charts import Axis, Row, row_chart
+from ..parts.svg import look_of, short
+from .widget import Filling
 
-import numpy as np
-
-from ...experiments.stats import Interval
-from ...plotting.style import PALETTE, arm_style
-from ..parts.curves import MARKS, _line, _text, short
-from ..parts.stills import paint
-
-WIDTH, ROW = 300, 26  # units of the drawing
-LEFT, RIGHT, TOP = 98, 44, 16  # margins
+FRAMES = (3, 10)  # lives of the first two pictures; the last shows all
 
 
-def boxes_svg(
-    goals: Mapping[str, np.ndarray],
-    means: Mapping[str, Interval],
-    ends: Sequence[float],
-) -> str:
-    """
-    Return box plots of goals (n,) by arm, and below each its mean with its interval.
-
-    `ends` are the ends of the axis.
-    """
-    low, high = ends
-    n = len(next(iter(goals.values())))
-
-    def x(goals):
-        return f"{LEFT + (WIDTH - LEFT - RIGHT) * (goals - low) / (high - low):.1f}"
-
-    bottom = TOP + ROW * len(goals)
-    parts = [
-        _text(0, 10, f"goals of a life, {n} lives", "start"),
-        _line(f"M{LEFT} {bottom}H{WIDTH - RIGHT}", paint("faint")),
+def draw(scene: Filling) -> Still:
+    """Return the boxes three times, and the means of all."""
+    results, lives = read_results(scene.results), scene.data["lives"][scene.order]
+    taken = [lives[:n] for n in (*FRAMES, len(lives))]
+    goals = {arm.name: results.totals(arm.name) for arm in results.arms}
+    ends = [float(f(map(f, goals.values()))) for f in (min, max)]
+    means = [
+        {arm: mean_interval(x[some], rng=0) for arm, x in goals.items()}
+        for some in taken
     ]
-    for end in ends:
-        parts.append(_text(float(x(end)), bottom + 13, short(end), "middle"))
-    for i, (arm, runs) in enumerate(goals.items()):
-        y, style = TOP + ROW * i + 10, arm_style(arm)
-        builder = arm.split("-")[0]
-        color = f"var(--ab-arm-{builder},{style.color})"
-        face = f"fill:{color if style.filled else paint('ground')};stroke:{color}"
-        mark = MARKS[PALETTE["arms"][builder]["marker"]]
-        parts.append(f'<path d="{mark}" transform="translate(6 {y})" style="{face}"/>')
-        parts.append(_text(15, y + 4, style.name, "start", color))
-        least, first, middle, third, most = map(
-            x, np.percentile(runs, range(0, 101, 25))
+    frames = []
+    for some, mean in zip(taken, means, strict=True):
+        boxes = [
+            Row(look_of(arm).name, short(of[0]), arm, box=goals[arm][some], mean=of)
+            for arm, of in mean.items()
+        ]
+        best = max(mean, key=lambda arm: mean[arm].estimate)
+        alt = (
+            f"Box plots of the goals of {len(some)} lives, nine arms, with the mean "
+            f"and its interval. Best: {look_of(best).name}, {short(mean[best][0])}."
         )
-        parts.append(_line(f"M{least} {y}H{most}", color))
-        parts.append(f'<path d="M{first} {y - 5}H{third}v10H{first}Z" style="{face}"/>')
-        line = paint("ground") if style.filled else color
-        parts.append(_line(f"M{middle} {y - 5}v10", line, width=1.5))
-        mean, *interval = map(x, means[arm])
-        bar = f"M{interval[0]} {y + 10}H{interval[1]}M{mean} {y + 7}v6"
-        parts.append(_line(bar, paint("ink"), width=1.5))
-        end = short(float(means[arm].estimate))
-        parts.append(_text(WIDTH, y + 4, end, "end"))
-    best = max(means, key=lambda arm: means[arm].estimate)
-    alt = (
-        f"Box plots of the goals of {n} lives, nine arms, with the mean and its "
-        f"interval. Best: {arm_style(best).name}, {short(means[best].estimate)}."
+        ticks = {end: short(end) for end in ends}
+        axis = Axis(*ends, ticks, f"goals of a life, {len(some)} lives")
+        frames.append(row_chart(boxes, axis, alt))
+    found, trap = scene.reading("1"), scene.reading(SAME)
+    signed = sum(map(bool, trap.stops))
+    caption = (
+        f"When would you sign? Claim 1 comes out as \u201c{found.verdict}\u201d "
+        f"from {found.settled} lives on, in each of {len(found.stops)} orders of "
+        f"{len(lives)} lives. But of {len(trap.stops)} comparisons of an arm with "
+        f"itself, a reader who looks after each life from life {FIRST_LOOK} on, "
+        f"and signs as soon as the interval leaves 0, signs {signed}: "
+        f"{signed / len(trap.stops):.0%}."
     )
-    looks = f"font:11px sans-serif;fill:{paint('ink')}"
-    return (
-        f'<svg role="img" viewBox="0 0 {WIDTH} {bottom + 18}" '
-        f'aria-label="{escape(alt)}" style="{looks}">{"".join(parts)}</svg>'
-    )
+    rows = [
+        (arm, *("{:,.0f} [{:,.0f}, {:,.0f}]".format(*mean[arm]) for mean in means))
+        for arm in goals
+    ]
+    head = ("arm", *(f"mean of {len(some)} lives, interval" for some in taken))
+    return Still(frames, caption, head, rows)

@@ -8,23 +8,19 @@ import traitlets
 
 from ...experiments.arms import ARMS
 from ...experiments.results import read_results, stored_results
-from ...experiments.stats import mean_interval
 from ...reproduction.claims import CLAIMS
 from ...reproduction.optional_stopping import (
     FIRST_LOOK,
     KEYS,
-    SAME,
     Stops,
     comparisons,
     orders,
     read_along,
     tracks,
 )
-from ..base import Scene, Still
-from .still import boxes_svg
+from ..base import Scene
 
 RUNS = 50
-FRAMES = (3, 10)  # lives of the first two pictures; the last shows all
 NINE = tuple(
     name
     for name in stored_results()
@@ -93,38 +89,6 @@ class Filling(Scene):
     def reading(self, key: str) -> Stops:
         """Return what a reader does who looks after each life, in five orders."""
         return read_along(_verdicts(self.results, key))
-
-    def still(self) -> Still:
-        """Return the boxes after 3, 10 and all lives."""
-        results, lives = read_results(self.results), self.data["lives"][self.order]
-        taken = [lives[:n] for n in (*FRAMES, len(lives))]
-        goals = {arm.name: results.totals(arm.name) for arm in results.arms}
-        ends = [f(map(f, goals.values())) for f in (min, max)]
-        means = [
-            {arm: mean_interval(x[some], rng=0) for arm, x in goals.items()}
-            for some in taken
-        ]
-        frames = [
-            boxes_svg({arm: x[some] for arm, x in goals.items()}, mean, ends)
-            for some, mean in zip(taken, means, strict=True)
-        ]
-        found, trap = self.reading("1"), self.reading(SAME)
-        signed = sum(map(bool, trap.stops))
-        caption = (
-            f"When would you sign? Claim 1 comes out as \u201c{found.verdict}\u201d "
-            f"from {found.settled} lives on, in each of {len(found.stops)} orders of "
-            f"{len(lives)} lives. But of {len(trap.stops)} comparisons of an arm with "
-            f"itself, a reader who looks after each life from life {FIRST_LOOK} on, "
-            f"and signs as soon as the interval leaves 0, signs {signed}: "
-            f"{signed / len(trap.stops):.0%}."
-        )
-        texts = [
-            {arm: "{:,.0f} [{:,.0f}, {:,.0f}]".format(*mean) for arm, mean in m.items()}
-            for m in means
-        ]
-        rows = [(arm, *(text[arm] for text in texts)) for arm in goals]
-        head = ("arm", *(f"mean of {len(some)} lives, interval" for some in taken))
-        return Still(frames, caption, head, rows)
 
 
 @lru_cache(maxsize=4)

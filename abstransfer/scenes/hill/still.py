@@ -1,101 +1,125 @@
-"""Still pictures of a land over two knobs, small and the same every time."""
+"""The still of the hill: first iterations, the whole climb, where 100 starts end."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from html import escape
-from typing import NamedTuple
+from functools import lru_cache
 
 import numpy as np
 from contourpy import FillType, contour_generator
 
 from ...plotting.style import number
-from ..parts.curves import _line, _text
-from ..parts.stills import paint
+from ..base import Still
+from ..parts.svg import at, dots, path, picture, text, through
+from .widget import LAST, STARTS, WORDS, Hill, side, values_at
 
+SQUARES = 24  # along a side of the land
 LEVELS = (-20, -10, -7, -5, -4.5, -4, -3.5, -3, -2.5, -2.2)
 LEFT, TOP, SIDE = 34, 22, 200  # of the drawing
-WIDTH, HEIGHT = LEFT + SIDE + 16, TOP + SIDE + 36
+RIGHT, BOTTOM = LEFT + SIDE, TOP + SIDE
+RING = "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0"
+MOMENTS = (0, 1, 2, 3, 4, 6, 10, 20, 50, LAST)  # iterations that a path shows
 
 
-class Landscape(NamedTuple):
-    """Heights over the knobs, and the two pages that are sure of themselves."""
-
-    heights: np.ndarray  # (n, n), q from below
-    tops: Mapping[str, float]  # at the upper right, at the lower left
-
-
-def hill_svg(
-    land: Landscape,
-    alt: str,
-    ways: Sequence[Sequence[tuple[float, float]]],
-    ends: np.ndarray | None = None,
-) -> str:
-    """
-    Return a land with its contours, climbs on it, and starts by where they end.
-
-    Parameters
-    ----------
-    land : Landscape
-    alt : str
-        What the picture shows.
-    ways : sequence of climbs, each a sequence of (p, q)
-    ends : ndarray of bool, shape (10, 10), optional
-        Whether the climb from the middle of each square ends at the upper right.
-    """
-    box = f"M{LEFT} {TOP}h{SIDE}v{SIDE}h-{SIDE}z"
-    parts = [*_levels(land.heights), _line(box, paint("faint"))]
-    if ends is not None:
-        for is_left, fill, shape in (
-            (True, "faint", "m-3 2h6l-3-5z"),
-            (False, "ground", "m-3-2h6l-3 5z"),
-        ):
-            places = (np.argwhere(ends == is_left)[:, ::-1] + 0.5) / 10
-            d = "".join(f"M{_at(*place)}{shape}" for place in places)
-            look = f"fill:{paint(fill)};stroke:{paint('faint')}"
-            parts.append(f'<path d="{d}" style="{look}"/>')
-    for way in ways:
-        places = [_at(*knobs) for knobs in way]
-        ink = paint("ink")
-        dots = _line("".join(f"M{place}h.01" for place in places), ink, "", 4)
-        parts += [
-            _line("M" + "L".join(places), ink, "", 1.4),
-            dots.replace("/>", ' stroke-linecap="round"/>'),
-        ]
-        x, y = places[0].split()
-        look = f"fill:{paint('ground')};stroke:{ink}"
-        parts.append(f'<circle cx="{x}" cy="{y}" r="4.5" style="{look}"/>')
-    (first, high), (second, low) = land.tops.items()
-    right, lower = LEFT + SIDE, TOP + SIDE
-    parts += [
-        _text(right, TOP - 7, f"{first} {number(high, 2)}", "end"),
-        _text(LEFT, lower + 13, f"{second} {number(low, 2)}", "start"),
-        _text(right, lower + 13, "1", "end"),
-        _text(LEFT - 5, TOP + 9, "1", "end"),
-        _text(LEFT + SIDE / 2, lower + 29, "p: left in the hall", "middle"),
-        _text(LEFT - 22, TOP - 7, "q: up on a landing", "start"),
-    ]
-    looks = f"font:11px sans-serif;fill:{paint('ink')}"
-    return (
-        f'<svg role="img" viewBox="0 0 {WIDTH} {HEIGHT}" aria-label="{escape(alt)}" '
-        f'style="{looks}">{"".join(parts)}</svg>'
+def draw(scene: Hill) -> Still:
+    """Return three climbs on the same land, the last with the sides of 100 starts."""
+    history, heights = scene.climb().history, _heights(scene.start)
+    n_left = int(scene.ends.sum())
+    left, right = (number(scene.value(knob, knob), 2) for knob in (1, 0))
+    low, now, high = (number(history[t], 2) for t in (0, scene.t, LAST))
+    caption = (
+        f"Climbing with two knobs; the robot starts {WORDS[scene.start]}. From "
+        f"p = {scene.p:g}, q = {scene.q:g} AbsProb-PI climbs from {low} to {high} in "
+        f"{LAST} iterations and ends {side(*_after(scene, LAST))}; the best page is "
+        f"worth {number(heights.max(), 2)}. Of 100 starts, {n_left} end at left and up "
+        f"(worth {left}), {100 - n_left} at right and down ({right}): a climb does not "
+        "know of the other top."
     )
+    rows = [
+        (t, *(number(knob, 3) for knob in _after(scene, t)), number(history[t], 3))
+        for t in sorted({*MOMENTS, scene.t})
+    ]
+    land = [
+        *_levels(heights),
+        path(f"M{LEFT} {TOP}H{RIGHT}V{BOTTOM}H{LEFT}z", "faint"),
+        text(RIGHT, TOP - 7, f"left and up {left}", "end"),
+        text(LEFT, BOTTOM + 13, f"right and down {right}"),
+        text(RIGHT, BOTTOM + 13, "1", "end"),
+        text(LEFT - 5, TOP + 9, "1", "end"),
+        text(LEFT + SIDE / 2, BOTTOM + 29, "p: left in the hall", "middle"),
+        text(LEFT - 22, TOP - 7, "q: up on a landing"),
+    ]
+    earlier = [Hill(p=p, q=q, start=scene.start) for p, q in scene.earlier]
+    whole = [_way(each, LAST) for each in (*earlier, scene)]
+    pictures = {
+        f"The first {scene.t} iterations of a climb, from {low} to {now}.": [
+            _way(scene, scene.t)
+        ],
+        f"All {LAST} iterations of a climb, from {low} to {high}.": whole,
+        f"A climb, and 100 starts by where they end: {n_left} left and up.": [
+            *_sides(scene.ends),
+            *whole,
+        ],
+    }
+    frames = [
+        picture(land + more, alt, RIGHT + 16, BOTTOM + 36)
+        for alt, more in pictures.items()
+    ]
+    return Still(frames, caption, ("iteration", "p", "q", "value"), rows)
 
 
-def _at(p: float, q: float) -> str:
-    return f"{LEFT + SIDE * p:.1f} {TOP + SIDE * (1 - q):.1f}"
+@lru_cache(maxsize=len(STARTS))
+def _heights(start: str) -> np.ndarray:
+    """Return the values of the pages over the knobs, q from below, (n, n)."""
+    knobs = np.linspace(0, 1, SQUARES + 1)
+    return np.array([[values_at(p, q) @ STARTS[start] for p in knobs] for q in knobs])
+
+
+def _after(scene: Hill, t: int) -> list[float]:
+    """Return the knobs p and q after t iterations."""
+    return scene.climb(t).policy[:2, 0].tolist()
+
+
+def _place(p: float, q: float) -> tuple[float, float]:
+    return LEFT + SIDE * p, TOP + SIDE * (1 - q)
 
 
 def _levels(heights: np.ndarray) -> list[str]:
     """Return one shape per level: where the land is at least as high."""
     knobs = np.linspace(0, 1, len(heights))
     land = contour_generator(knobs, knobs, heights, fill_type=FillType.OuterOffset)
-    parts = []
-    for level in LEVELS:
-        d = ""
-        for points, offsets in zip(*land.filled(level, np.inf), strict=True):
-            rims = np.split(points, offsets[1:-1])
-            d += "".join(f"M{'L'.join(_at(*knobs) for knobs in rim)}z" for rim in rims)
-        style = f"fill:{paint('high')};fill-opacity:.13;stroke:{paint('faint')}"
-        parts.append(f'<path d="{d}" style="{style};stroke-width:.5"/>')
-    return parts
+    return [
+        path(
+            "".join(
+                f"{through(_place(*knobs) for knobs in rim)}z"
+                for points, offsets in zip(*land.filled(level, np.inf), strict=True)
+                for rim in np.split(points, offsets[1:-1])
+            ),
+            "faint",
+            0.5,
+            fill="high",
+            more="fill-opacity:.13",
+        )
+        for level in LEVELS
+    ]
+
+
+def _way(scene: Hill, last: int) -> str:
+    """Return a climb: its path, a dot for some iterations, a ring at its start."""
+    shown = [t for t in MOMENTS if t < last] + [last]
+    places = [_place(*_after(scene, t)) for t in shown]
+    ring = path(RING, "ink", fill="ground", move=places[0])
+    return path(through(places), "ink", 1.4) + dots(places, "ink", 4) + ring
+
+
+def _sides(ends: np.ndarray) -> list[str]:
+    """Return triangles at the starts: up where the climb ends at left and up."""
+    looks = {True: ("faint", "m-3 2h6l-3-5z"), False: ("ground", "m-3-2h6l-3 5z")}
+    starts = {of: (np.argwhere(ends == of)[:, ::-1] + 0.5) / 10 for of in looks}
+    return [
+        path(
+            "".join(f"M{at(*_place(*knobs))}{shape}" for knobs in starts[is_left]),
+            "faint",
+            fill=fill,
+        )
+        for is_left, (fill, shape) in looks.items()
+    ]

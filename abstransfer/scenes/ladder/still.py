@@ -1,90 +1,84 @@
-"""Still pictures of Table 1 as ladders, small and the same every time."""
+"""The still of the ladder: both buildings, and Table 1 as rungs in each."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
 
 import numpy as np
 
-from ...plotting.style import PALETTE, arm_style, number, spread
-from ..parts.curves import MARKS, _line, _text
-from ..parts.stills import paint
+from ...builders import BUILDERS
+from ...driving import PAPER, ROWS
+from ...plotting.style import arm_style, count, number
+from ..base import Still
+from ..parts.building import draw_building
+from ..parts.charts import Axis, Curve, line_chart
+from ..parts.svg import WIDTH, picture
+from .widget import READING, SIDES, Ladder
 
-WIDTH, HEIGHT = 320, 300  # units of the drawing
-TOP, BOTTOM, SIDE, LINE, STEP = 30, 12, 112, 14, 10
-SHAPES = MARKS | {"star": "M0-5L1.5-1.5 5-1.5 2 1 3.2 5 0 2.6-3.2 5-2 1-5-1.5-1.5-1.5Z"}
+HEIGHT = 280  # of the ladders
+CLOSE, ASIDE = 4, 0.07  # values of rungs of which one steps aside, and how far
+X = Axis(0, 1, dict(enumerate(SIDES)), "hollow: the paper")
+Y = Axis(-100, 0, {}, "mean value of a cell")
 
 
-def ladders_svg(
-    columns: Mapping[str, Mapping[str, float]],
-    paper: Mapping[str, Mapping[str, float]],
-    alt: str,
-) -> str:
-    """
-    Return ladders side by side as SVG, the higher a rung, the better it drives.
-
-    Parameters
-    ----------
-    columns : dict from building to dict from policy to mean value
-    paper : the same, or empty
-        Numbers of the paper, as hollow marks.
-    alt : str
-        What the picture shows.
-    """
-    parts = []
-    for tick in range(0, -101, -20):
-        parts += [
-            _line(f"M26 {_y(tick):g}H{WIDTH - 2}", paint("grid")),
-            _text(0, _y(tick) + 4, number(tick, 0), "start"),
+def draw(scene: Ladder) -> Still:
+    """Return the buildings, and what policies are worth in both."""
+    table = {side: {row: scene.table[side][row] for row in ROWS} for side in SIDES}
+    is_papers = not set(scene.changed) & {"text", "target", *READING}
+    paper = PAPER if is_papers else {}
+    best = max(BUILDERS, key=table["target"].get)
+    optimal = table["target"]["optimal"]
+    more = 100 * (optimal - table["target"][best]) / -optimal
+    texts = {side: _listed(column) for side, column in table.items()}
+    caption = (
+        f"Table 1 as a ladder: the mean value of a cell. In the source, where the "
+        f"pages are written: {texts['source']}. In the target: {texts['target']}. "
+        f"The best page there, {arm_style(best).name}, pays {number(more, 0)} % "
+        "more than the best driver."
+    )
+    frames = []
+    for name, map_ in (("source", scene.source), ("target", scene.target)):
+        rooms, goals = count(map_.n_rooms, "room"), count(len(map_.goals), "goal")
+        frames.append(draw_building(map_, f"The {name}: {rooms} and {goals}."))
+    frames.append(picture(_ladders(table, paper), caption, WIDTH, HEIGHT))
+    rows = []
+    for row in ROWS:
+        cells = [
+            number(of[side][row], 2) if of else "\u2013"
+            for side in SIDES
+            for of in (table, paper)
         ]
-    for side, (name, column) in enumerate(columns.items()):
-        x, out = (WIDTH - SIDE, 1) if side else (SIDE, -1)
-        parts.append(_line(f"M{x} {_y(0):g}V{_y(-100):g}", paint("faint")))
-        parts.append(_text(x, TOP - 16, name, "middle"))
-        heights = np.array([_y(value) for value in column.values()])
-        labels = spread(heights, LINE)
-        theirs = {row: _y(v) for row, v in paper.get(name, {}).items() if row in column}
-        for row, shift in zip(theirs, _asides([*theirs.values()]), strict=True):
-            place = x - (14 + shift) * out, theirs[row]
-            parts.append(_mark(row, *place, paint("ground")))
-        asides = _asides(heights)
-        for row, height, label, aside in zip(
-            column, heights, labels, asides, strict=True
-        ):
-            color = f"var(--ab-arm-{row},{arm_style(row).color})"
-            end = x + 22 * out
-            at = x + aside * out
-            parts.append(_line(f"M{at} {height:.1f}L{end} {label:.1f}", color))
-            words = f"{arm_style(row).name} {number(column[row])}"
-            anchor = "start" if side else "end"
-            parts.append(_text(end + 3 * out, label + 4, words, anchor, color))
-            parts.append(_mark(row, at, height, color))
-    looks = f"font:11px sans-serif;fill:{paint('ink')}"
-    return (
-        f'<svg role="img" viewBox="0 0 {WIDTH} {HEIGHT}" aria-label="{escape(alt)}" '
-        f'style="{looks}">{"".join(parts)}</svg>'
-    )
+        rows.append((arm_style(row).name, *cells))
+    head = ("policy", "source", "the paper", "target", "the paper")
+    return Still(frames, caption, head, rows)
 
 
-def _asides(heights) -> list[int]:
-    """Return how far marks step aside: every second one of those that are close."""
-    aside, before = [0] * len(heights), None
-    for i in np.argsort(heights):
-        close = before is not None and heights[i] - heights[before] < STEP
-        aside[i] = STEP if close and not aside[before] else 0
-        before = i
-    return aside
+def _listed(column: Mapping[str, float]) -> str:
+    order = sorted(column, key=column.get, reverse=True)
+    return ", ".join(f"{arm_style(row).name} {number(column[row])}" for row in order)
 
 
-def _y(value: float) -> float:
-    return TOP - (HEIGHT - TOP - BOTTOM) * value / 100
+def _ladders(table: Mapping, paper: Mapping) -> list[str]:
+    """Return a rung of each policy in each building; the higher, the better."""
+    ours, theirs = _rungs(table, 0), _rungs(paper, 0.11)
+    curves = []
+    for row, rungs in ours.items():
+        first, last = (number(value) for _, value in rungs)
+        name = f"{arm_style(row).name} {last}"
+        curves.append(Curve(name, rungs, row, "", marks=1, start=first))
+    curves += [Curve("", rungs, row, marks=1) for row, rungs in theirs.items()]
+    options = {"height": HEIGHT, "left": 44, "right": 102}
+    return line_chart(curves, X if paper else X._replace(name=""), Y, **options)
 
 
-def _mark(row: str, x: float, y: float, fill: str) -> str:
-    look = PALETTE["arms"][row]
-    color = f"var(--ab-arm-{row},{look['light']})"
-    return (
-        f'<path d="{SHAPES[look["marker"]]}" transform="translate({x} {y:.1f})" '
-        f'style="fill:{fill};stroke:{color}"/>'
-    )
+def _rungs(table: Mapping, inward: float) -> dict[str, list[tuple[float, float]]]:
+    """Return (place, value) by policy in both buildings; close ones step aside."""
+    rungs = {row: [] for row in ROWS if table}
+    for i, side in enumerate(SIDES if table else ()):
+        before, aside = -np.inf, 0.0
+        for row in sorted(ROWS, key=table[side].get):
+            value = table[side][row]
+            aside = ASIDE if value - before < CLOSE and not aside else 0.0
+            rungs[row].append((abs(i - inward - aside), value))
+            before = value
+    return rungs

@@ -6,15 +6,11 @@ from functools import lru_cache
 
 import traitlets
 
-from ...builders import BUILDERS
-from ...driving import PAPER, ROWS, table1
+from ...driving import table1
 from ...maps import Map, read_map
 from ...navigation import navigation_tasks
-from ...plotting.style import arm_style, count, number
-from ..base import MapTrait, Still
+from ..base import MapTrait
 from ..parts.drawn import DrawnScene
-from ..parts.stills import building_svg
-from .still import ladders_svg
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
 SIDES = ("source", "target")
@@ -68,55 +64,8 @@ class Ladder(DrawnScene):
         options = (self.success, self.actions, self.near, near)
         return _table(self.source, self.target, *options)
 
-    def still(self) -> Still:
-        """Return the source, its ladder, and both ladders."""
-        table = {s: {row: self.table[s][row] for row in ROWS} for s in SIDES}
-        is_papers = not set(self.changed) & {"text", "target", *READING}
-        paper = PAPER if is_papers else {}
-        best = max(BUILDERS, key=table["target"].get)
-        optimal = table["target"]["optimal"]
-        more = 100 * (optimal - table["target"][best]) / -optimal
-        texts = {side: _listed(column) for side, column in table.items()}
-        caption = (
-            f"Table 1 as a ladder: the mean value of a cell. In the source, where the "
-            f"pages are written: {texts['source']}. In the target: {texts['target']}. "
-            f"The best page there, {arm_style(best).name}, pays {number(more, 0)} % "
-            "more than the best driver."
-        )
-        map_ = self.source
-        rooms, goals = count(map_.n_rooms, "room"), count(len(map_.goals), "goal")
-        alt = f"The source: {rooms} and {goals}."
-        only = {"source": table["source"]}
-        frames = [
-            building_svg(map_, alt),
-            ladders_svg(only, paper, f"Source: {texts['source']}."),
-            ladders_svg(table, paper, caption),
-        ]
-        rows = [
-            (
-                arm_style(row).name,
-                *(
-                    text
-                    for side in SIDES
-                    for text in (number(table[side][row], 2), _paper(paper, side, row))
-                ),
-            )
-            for row in ROWS
-        ]
-        head = ("policy", "source", "the paper", "target", "the paper")
-        return Still(frames, caption, head, rows)
-
     def __repr__(self) -> str:
         return super().__repr__().replace("text=...", f"source={self.source!r}")
-
-
-def _listed(column: dict) -> str:
-    order = sorted(column, key=column.get, reverse=True)
-    return ", ".join(f"{arm_style(row).name} {number(column[row])}" for row in order)
-
-
-def _paper(paper: dict, side: str, row: str) -> str:
-    return number(paper[side][row], 2) if paper else "\u2013"
 
 
 @lru_cache(maxsize=8)

@@ -7,13 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import traitlets
 
-from ...learning import Learner, loop, q_learning
+from ...learning import loop
 from ...learning._runs import RunState, set_up
 from ...learning.settings import Settings
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.style import count, number
-from ..base import MapTrait, Scene, Still
-from ..parts.stills import building_svg
+from ..base import MapTrait, Scene
 
 TWO_ROOMS = """\
 +-----+-----+
@@ -95,65 +93,6 @@ class Microscope(Scene):
             self.tasks, STARTS[self.start][1], self.luck, self._update
         )
 
-    def still(self) -> Still:
-        """Return three moments, and the cells visited from each start."""
-        task = min(self.task, len(self.map.goals) - 1)
-        counts = {
-            start: _explored(self.map, start, task, self.luck) for start in STARTS
-        }
-        rows = [
-            (STARTS[start][2], f"{cells[0]} of {self.map.n_cells}", number(cells[1]))
-            for start, cells in counts.items()
-        ]
-        most = max(counts, key=lambda start: counts[start][1])
-        least = min(counts, key=lambda start: counts[start][1])
-        caption = (
-            f"Q-learning, one step at a time. Within {BET} steps a robot with reward "
-            f"{STARTS[most][2]}, has stood on {number(counts[most][1])} of "
-            f"{self.map.n_cells} cells, on average over 20 seeds; with reward "
-            f"{STARTS[least][2]}, on {number(counts[least][1])}. Values that start "
-            "above what can be had make a robot look around."
-        )
-        head = (
-            "reward and first values",
-            f"cells visited in {BET} steps",
-            "mean of 20",
-        )
-        moments = sorted({self.t or 1, (self.t + STEPS) // 2, STEPS})
-        return Still([self._frame(t) for t in moments], caption, head, rows)
-
-    def _frame(self, t: int) -> str:
-        tasks, (_, q0, _) = self.tasks, STARTS[self.start]
-        q = np.full(tasks.available.shape, q0)
-        if self.trace:
-            for s, a, *_, after, _ in self.trace[:t]:
-                q[s, a] = after
-            robot = self.trace[t - 1][3]
-        else:
-            learned = q_learning(tasks.mdp, t, rng=self.luck, q0=q0, trace=t)
-            q, robot = learned.q, learned.trace.next_state[-1]
-        best = np.where(tasks.mdp.terminal, np.nan, q.max(axis=1))
-        known = np.append(best[np.isfinite(best)], 0.2 if self.start == "goal" else 0.0)
-        texts = [_short(v) if v not in (q0,) and v == v else "" for v in best]
-        n_new = sum(map(bool, texts))
-        changed = f"{count(n_new, 'cell')} of {len(best)} changed their value"
-        alt = f"The building after step {t}: {changed}."
-        limits = known.min(), known.max()
-        return building_svg(
-            self.map,
-            alt,
-            values=best,
-            limits=limits,
-            texts=texts,
-            robot=robot,
-            goal=tasks.goal[0],
-        )
-
-
-def _short(v: float) -> str:
-    """Return a value as it fits into a cell."""
-    return number(v, 2).replace("0.", ".")
-
 
 def own_trace(tasks: NavigationTasks, q0: float, rng, update: Callable) -> list[list]:
     """
@@ -183,14 +122,3 @@ def own_trace(tasks: NavigationTasks, q0: float, rng, update: Callable) -> list[
         here = int(run.plain.place[0])
         rows.append([s, a, how, s_next, reward, float(before[s, a]), after, here])
     return rows
-
-
-def _explored(map_, start: str, task: int, luck: int) -> tuple[int, float]:
-    """Return the cells visited with this luck, and the mean over seeds 1 to 20."""
-    reward, q0, _ = STARTS[start]
-    mdp = navigation_tasks(map_, reward=reward, keep=[task]).mdp
-    learner = Learner(mdp, rngs=[luck, *range(1, 21)], q0=q0, trace=BET)
-    learner.advance(BET)
-    traces = [result.trace for result in learner.results()]
-    cells = [len({*trace.state, *trace.next_state}) for trace in traces]
-    return cells[0], float(np.mean(cells[1:]))

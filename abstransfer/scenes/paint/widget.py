@@ -5,21 +5,12 @@ from __future__ import annotations
 import numpy as np
 import traitlets
 
-from ...abstraction import FEATURES, LABELS
+from ...abstraction import FEATURES
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.style import count
-from ...plotting.tasks import abstract_ranks
-from ..base import MapTrait, Scene, Still
-from ..parts.counts import Counts, count_states, mask_of
-from ..parts.stills import building_svg
+from ..base import MapTrait, Scene
+from .counts import Counts, count_states, mask_of
 
 ALL = (1 << len(FEATURES)) - 1
-CHOICES = {  # rows of the still picture's table
-    "all 11": FEATURES,
-    "the 8 sights": LABELS,
-    "no sights": FEATURES[len(LABELS) :],
-    "none": (),
-}
 
 
 class FeaturesTrait(traitlets.TraitType):
@@ -96,52 +87,14 @@ class Paint(Scene):
                 for cell in np.flatnonzero(~tasks.mdp.terminal)
                 if self.z >= 0 and not (tasks.rho[cell] ^ self.z) & mask
             ]
-            for name, tasks in self._shown().items()
+            for name, tasks in self.shown.items()
         }
 
-    def _shown(self) -> dict[str, NavigationTasks]:
-        """Return the two tasks that are shown, with all features."""
+    @property
+    def shown(self) -> dict[str, NavigationTasks]:
+        """The two tasks that are shown, with all features."""
         pairs = ("source", self.source, self.task), ("target", self.map, self.away)
         return {
             name: navigation_tasks(map_, keep=[min(task, len(map_.goals) - 1)])
             for name, map_, task in pairs
         }
-
-    def still(self) -> Still:
-        """Return the painted building, and what is lit in both."""
-        shown, lit, all_ = self._shown(), self.lit, self.counts
-        task = min(self.task, len(self.source.goals) - 1)
-        home = navigation_tasks(self.source, keep=[task], features=self.features)
-        rank = abstract_ranks(home, 0)
-        texts = ["" if r < 0 else str(r + 1) for r in rank]
-        alt = f"The small building: {rank.max() + 1} numbers for what looks alike."
-        goal = shown["source"].goal[0]
-        frames = [building_svg(self.source, alt, texts=texts, goal=goal)]
-        for name, tasks in shown.items():
-            map_, size = tasks.maps[0], "small" if name == "source" else "large"
-            values = np.full(map_.n_cells, np.nan)
-            values[lit[name]] = 1.0
-            alt = f"The {size} building: {count(len(lit[name]), 'cell')} lit."
-            frames.append(building_svg(map_, alt, values=values, goal=tasks.goal[0]))
-        caption = (
-            f"Cells that look alike. With {count(len(self.features), 'feature')}, "
-            f"{all_.source} abstract states occur in the small building and "
-            f"{all_.target} in the large one, where {all_.unseen:.1%} of the states "
-            f"look like nothing in the small one. Lit: one abstract state, in "
-            f"{count(len(lit['source']), 'cell')} of a task of the small building and "
-            f"{len(lit['target'])} of a task of the large one."
-        )
-        rows = []
-        for name, chosen in CHOICES.items():
-            of = count_states(self.source, self.map, chosen)
-            shares = of.unseen, of.torn, of.right
-            rows.append((name, of.source, of.target, *(f"{x:.1%}" for x in shares)))
-        head = (
-            "features",
-            "abstract states, small",
-            "large",
-            "large: looks new",
-            "small: in a conflict",
-            "one action right",
-        )
-        return Still(frames, caption, head, rows)

@@ -1,80 +1,58 @@
-"""Still pictures of a project: bars of driving, dots of a race."""
+"""The still of the project: the building, how pages drive in it, and the race."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from html import escape
+from ...plotting.style import count, number
+from ...project.setup import drives
+from ..base import Still
+from ..parts.building import draw_building
+from ..parts.charts import Axis, Row, row_chart
+from .widget import NAMES, Project
 
-import numpy as np
-
-from ...plotting.style import PALETTE, arm_style, number
-from ..ladder.still import SHAPES
-from ..parts.curves import _line, _text
-from ..parts.stills import paint
-
-WIDTH, ROW = 300, 26  # units of the drawing
-LEFT, RIGHT = 62, 50
+FROM = {"source": "the source", "target": "the target", "own": "it"}
 
 
-def bars_svg(bars: Mapping[str, tuple[str, float]], alt: str) -> str:
-    """Return values from -100 to 0 by name as bars; each with its arm."""
-    parts = []
-    for i, (name, (arm, value)) in enumerate(bars.items()):
-        y, color = i * ROW + 4, _color(arm)
-        right = WIDTH - RIGHT
-        end = right + (right - LEFT) * value / 100  # as in the scene: a cost
-        parts += [
-            _text(0, y + 13, name, "start", color),
-            f'<path d="M{right} {y + 3}H{end:.1f}v13H{right}z" style="fill:{color}"/>',
-            _text(right + 6, y + 13, number(value), "start"),
-        ]
-    return _svg(parts, len(bars) * ROW + 4, alt)
-
-
-def dots_svg(rows: Mapping[str, tuple[str, Sequence[float]]], alt: str) -> str:
-    """Return differences by name, a hollow mark each, the mean filled."""
-    every = np.array([0.0, *(x for _, more in rows.values() for x in more)])
-    low, high = every.min(), max(every.max(), 1.0)
-
-    def x(value):
-        return LEFT + (WIDTH - LEFT - RIGHT) * (value - low) / (high - low)
-
-    parts, tall = [], ROW + 14
-    parts.append(_line(f"M{x(0):.1f} 0V{len(rows) * tall}", paint("ink"), "4 3"))
-    for i, (name, (arm, more)) in enumerate(rows.items()):
-        y, mean = i * tall + 6, float(np.mean(more))
-        parts.append(_text(0, y + 16, name, "start", _color(arm)))
-        for life, value in enumerate(more):
-            parts.append(_mark(arm, x(value), y + 14 * life / len(more), False))
-        parts.append(_mark(arm, x(mean), y + 24, True))
-        words = f"{mean:+,.0f}".replace("-", "\u2212")
-        parts.append(_text(WIDTH - RIGHT + 8, y + 28, words, "start"))
-    bottom = len(rows) * tall + 16
-    parts.append(_text(WIDTH / 2, bottom, "goals more than without advice", "middle"))
-    return _svg(parts, bottom + 6, alt)
-
-
-def _style(arm: str) -> str:
-    return "uniform_available" if arm == "eager" else arm
-
-
-def _color(arm: str) -> str:
-    arm = _style(arm)
-    return f"var(--ab-arm-{arm},{arm_style(arm).color})"
-
-
-def _mark(arm: str, x: float, y: float, filled: bool) -> str:
-    shape, color = SHAPES[PALETTE["arms"][_style(arm)]["marker"]], _color(arm)
-    size = "" if filled else " scale(.7)"
-    return (
-        f'<path d="{shape}" transform="translate({x:.1f} {y:.1f}){size}" '
-        f'style="fill:{color if filled else paint("ground")};stroke:{color}"/>'
+def draw(scene: Project) -> Still:
+    """Return the building, bars of driving, and dots of lives."""
+    setup, goals = scene.setup, scene.run().goals
+    none, values = goals["none"], drives(setup)
+    race = {name: goals[name] - none for name in setup.guides}
+    words, rows = [], [("none", "", f"{none.mean():,.0f}", "")]
+    for name, more in race.items():
+        hurts = more.sum() < 0
+        n = int((more < 0).sum() if hurts else (more > 0).sum())
+        share = _signed(100 * more.sum() / max(none.sum(), 1), 1)
+        words.append(
+            f"{NAMES[name]} {'hurt' if hurts else 'helped'} in {n} ({share} %)"
+        )
+        drive, mean = number(values[name], 2), f"{goals[name].mean():,.0f}"
+        rows.append((NAMES[name], drive, mean, _signed(more.mean())))
+    lives = "1 life" if scene.lives == 1 else f"{scene.lives} lives"
+    map_ = scene.map
+    rooms = f"{count(map_.n_rooms, 'room')} and {count(len(map_.goals), 'goal')}"
+    caption = (
+        f"A race in a building with {rooms}; the pages were written in "
+        f"{FROM[scene.advice]}. A life without advice reaches {none.mean():,.0f} "
+        f"goals. Of {lives} with the same luck, {', '.join(words)}: "
+        f"{scene.strategy} advice."
     )
+    best = max(setup.guides, key=values.get, default="optimal")
+    told = f"How pages drive: {NAMES[best]} best, {number(values[best])}."
+    bars = [Row(NAMES[name], number(v), name, bar=v) for name, v in values.items()]
+    dots = [
+        Row(NAMES[name], _signed(more.mean()), name, dots=more, mean=[more.mean()])
+        for name, more in race.items()
+    ]
+    ends = [0.0, 1.0, *(x for more in race.values() for x in more)]
+    axis = Axis(min(ends), max(ends), {0: "0"}, "goals more than without advice")
+    frames = [
+        draw_building(map_, f"A building with {rooms}."),
+        row_chart(bars, Axis(-100, 0, {0: "0"}, "mean value of a cell"), told),
+        row_chart(dots, axis, caption, tall=34),
+    ]
+    head = ("robot", "drives", "goals of a life", "more than without advice")
+    return Still(frames, caption, head, rows)
 
 
-def _svg(parts: list[str], height: float, alt: str) -> str:
-    looks = f"font:11px sans-serif;fill:{paint('ink')}"
-    return (
-        f'<svg role="img" viewBox="0 0 {WIDTH} {height}" aria-label="{escape(alt)}" '
-        f'style="{looks}">{"".join(parts)}</svg>'
-    )
+def _signed(x: float, digits: int = 0) -> str:
+    return f"{x:+,.{digits}f}".replace("-", "\u2212")

@@ -8,14 +8,11 @@ import traitlets
 
 from ...abstraction import FEATURES
 from ...builders import BUILDERS
-from ...plotting.style import count, number
 from ...project.card import card_text
 from ...project.racing import Race
-from ...project.setup import ADVICE, GUIDES, Setup, drives, run
-from ..base import MapTrait, Still
+from ...project.setup import ADVICE, GUIDES, Setup, run
+from ..base import MapTrait
 from ..parts.drawn import DrawnScene
-from ..parts.stills import building_svg
-from .still import bars_svg, dots_svg
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
 NAMES = {
@@ -26,7 +23,6 @@ NAMES = {
     "rand": "random",
     "optimal": "optimal",
 }
-FROM = {"source": "the source", "target": "the target", "own": "it"}
 SCHOOL = """\
 +-----+-----+-----+
 |     |     |     |
@@ -105,45 +101,8 @@ class Project(DrawnScene):
         """Return the text to hand in, as the browser writes it."""
         return card_text(self.setup, self.run().goals)
 
-    def still(self) -> Still:
-        """Return the building, how the pages drive in it, and the race."""
-        setup, goals = self.setup, self.run().goals
-        none, values = goals["none"], drives(setup)
-        map_, words, rows = self.map, [], [("none", "", f"{none.mean():,.0f}", "")]
-        for name in setup.guides:
-            more = goals[name] - none
-            hurts = goals[name].sum() < none.sum()
-            n = int((more < 0).sum() if hurts else (more > 0).sum())
-            share = _signed(100 * more.sum() / max(none.sum(), 1), 1)
-            what = "hurt" if hurts else "helped"
-            words.append(f"{NAMES[name]} {what} in {n} ({share} %)")
-            drive, mean = number(values[name], 2), f"{goals[name].mean():,.0f}"
-            rows.append((NAMES[name], drive, mean, _signed(more.mean())))
-        lives = "1 life" if self.lives == 1 else f"{self.lives} lives"
-        rooms = f"{count(map_.n_rooms, 'room')} and {count(len(map_.goals), 'goal')}"
-        caption = (
-            f"A race in a building with {rooms}; the pages were written in "
-            f"{FROM[self.advice]}. A life without advice reaches {none.mean():,.0f} "
-            f"goals. Of {lives} with the same luck, {', '.join(words)}: "
-            f"{self.strategy} advice."
-        )
-        best = max(setup.guides, key=values.get, default="optimal")
-        told = f"How pages drive: {NAMES[best]} best, {number(values[best])}."
-        race = {name: goals[name] - none for name in setup.guides}
-        frames = [
-            building_svg(map_, f"A building with {rooms}."),
-            bars_svg({NAMES[name]: (name, v) for name, v in values.items()}, told),
-            dots_svg({NAMES[name]: (name, m) for name, m in race.items()}, caption),
-        ]
-        head = ("robot", "drives", "goals of a life", "more than without advice")
-        return Still(frames, caption, head, rows)
-
     def __repr__(self) -> str:
         return super().__repr__().replace("text=...", f"map={self.map!r}")
-
-
-def _signed(x: float, digits: int = 0) -> str:
-    return f"{x:+,.{digits}f}".replace("-", "\u2212")
 
 
 @lru_cache(maxsize=16)

@@ -7,11 +7,7 @@ import traitlets
 from ...experiments.arms import ARMS, PAPER_STEPS, Arm
 from ...experiments.problem import target_tasks
 from ...learning import q_learning
-from ...plotting.buildings import place
-from ..base import Still
-from ..parts.curves import curves_svg
-from ..parts.runs import NAMES, PolicyTrait, RunScene, scaled
-from ..parts.stills import CELL, building_svg, paint
+from ..parts.runs import PolicyTrait, RunScene, scaled
 
 FIRST = 1000  # steps that can be looked at
 RACERS = ("none", "rand-hard", "prob-hard", "nd-hard")
@@ -79,80 +75,3 @@ class Race(RunScene):
         return q_learning(
             tasks.mdp, FIRST, rng=self.seed, guide=guide, tau=tau, trace=FIRST
         ).trace
-
-    def still(self) -> Still:
-        """Return the start, the robots on their way, and all steps of all runs."""
-        runs = {arm.guide or "none": self.learn(arm) for arm in self.arms}
-        order = sorted(runs, key=lambda name: -runs[name].sum())
-        best, steps = order[0], f"{self.scale.steps / 1e6:g} million steps"
-        each = [f"{NAMES[name]} {runs[name].sum():,}" for name in order]
-        caption = (
-            f"The race: robots that differ only in the advice they get. In {steps}, "
-            f"with the luck of run {self.luck}, the robot that {_got(best)} reached "
-            f"most goals: {', '.join(each)}."
-        )
-        alt = f"Goals in {steps}: {', '.join(each)}."
-        look = {"yours": "uniform_available"}
-        curves = curves_svg(
-            {look.get(name, name): goals for name, goals in runs.items()},
-            alt,
-            names={look.get(name, name): NAMES[name] for name in runs},
-            steps=self.scale.steps,
-        )
-        half = self.scale.steps // 2
-        rows = [
-            (
-                f"{NAMES[name]} ({LETTERS[name]})",
-                f"{runs[name][: len(runs[name]) // 2].sum():,}",
-                f"{runs[name].sum():,}",
-            )
-            for name in order
-        ]
-        head = ("advice", f"goals in the first {half / 1e6:g} million", "goals in all")
-        return Still([*self._moments(), curves], caption, head, rows)
-
-    def _moments(self) -> list[str]:
-        """Return the building at the start, and at the step that is looked at."""
-        traces = {arm.guide or "none": self.first_steps(arm) for arm in self.arms}
-        n_cells = self.map.n_cells
-        start = int(traces["none"].state[0])
-        goal = int(target_tasks(self.problem).goal[start // n_cells])
-        where = place(self.map, start % n_cells, "")
-        begin = building_svg(
-            self.map,
-            f"All robots start in{where}, with one goal.",
-            robot=start % n_cells,
-            goal=goal,
-        )
-        t = max(self.t, 1)
-        letters = {}
-        for name, trace in traces.items():
-            cell = int(trace.next_state[t - 1]) % n_cells
-            letters[cell] = letters.get(cell, "") + LETTERS[name]
-        key = ", ".join(f"{LETTERS[name]} {NAMES[name]}" for name in traces)
-        alt = f"Where the robots are after step {t}: {key}."
-        later = building_svg(self.map, alt, goal=goal)
-        robots = "".join(
-            _robot(*divmod(cell, self.map.shape[1]), text)
-            for cell, text in letters.items()
-        )
-        return [begin, later.replace("</svg>", robots + "</svg>")]
-
-
-def _robot(row: int, column: int, text: str) -> str:
-    """Return a robot, or several in one cell, larger than the cell, by letters."""
-    x, y, half = CELL * (column + 0.5), CELL * (row + 0.5), 9 + 6 * len(text)
-    style = f"fill:{paint('ground')};stroke:{paint('ink')};stroke-width:2"
-    return (
-        f'<rect x="{x - half:g}" y="{y - 14:g}" width="{2 * half}" height="28" rx="14" '
-        f'style="{style}"/><text x="{x:g}" y="{y:g}" dy=".35em" '
-        f'style="font-size:20px">{text}</text>'
-    )
-
-
-def _got(name: str) -> str:
-    return {
-        "none": "got no advice",
-        "rand": "got random advice",
-        "yours": "your policy advised",
-    }.get(name, f"{NAMES[name]} advised")

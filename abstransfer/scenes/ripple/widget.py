@@ -10,10 +10,8 @@ import traitlets
 
 from ...maps import Map
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.style import count, number
 from ...solvers import optimal_actions, optimal_values, value_iteration
-from ..base import MapTrait, Scene, Still
-from ..parts.stills import building_svg
+from ..base import MapTrait, Scene
 
 RIGHT = 0.01  # a value is known when it is right to within this
 
@@ -86,62 +84,13 @@ class Ripple(Scene):
         return min(self.task, len(self.map.goals) - 1)
 
     @property
-    def _wave(self) -> _Wave:
-        return _wave(self.map, self._task, self.success)
-
-    def still(self) -> Still:
-        """Return the sweep that is looked at, a later one, and the last."""
-        tasks = range(len(self.map.goals))
-        waves = [_wave(self.map, task, self.success) for task in tasks]
-        last, far = len(self.sweeps) - 1, int(self.news.max())
-        cells = self.map.n_cells - 1
-        moments = sorted({min(self.k, last), min((self.k + far) // 2, last), last})
-        while len(moments) < 3:
-            moments.insert(0, moments[0])
-        caption = (
-            f"Values ripple out from the goal: its news reaches the farthest cell, "
-            f"{count(far, 'step')} away, in sweep {far}, and every value is right to "
-            f"within a hundredth after {count(last, 'sweep')} (moves succeed with "
-            f"probability {self.success:g}). More than one action is best in "
-            f"{self._wave.n_ties} of {cells} cells. In all {count(len(waves), 'task')} "
-            f"it takes at most {max(len(wave.sweeps) - 1 for wave in waves)} sweeps, "
-            f"and {sum(wave.n_ties for wave in waves)} of {cells * len(waves)} cells "
-            "have more than one best action."
-        )
-        rows = [
-            (k, f"{(self.news <= k).sum()} of {cells + 1}", number(self.errors[k], 3))
-            for k in sorted({0, *moments, min(far, last)})
-        ]
-        head = ("sweeps", "cells that have heard", "largest error")
-        return Still([self._frame(k) for k in moments], caption, head, rows)
-
-    def _frame(self, k: int) -> str:
-        heard = self.news <= k
-        values = np.where(heard, self.sweeps[k], np.nan)
-        texts = [
-            "" if n == 0 else _short(v) if n <= k else "\u00b7"
-            for n, v in zip(self.news, self.sweeps[k], strict=True)
-        ]
-        alt = (
-            f"Values after {count(k, 'sweep')}: {heard.sum()} of {len(heard)} cells "
-            f"have heard of the goal; the largest error is {number(self.errors[k], 2)}."
-        )
-        return building_svg(
-            self.map,
-            alt,
-            values=values,
-            limits=(self.sweeps[-1].min(), 0.0),
-            texts=texts,
-            goal=self.map.goals[self._task],
-        )
+    def _wave(self) -> Wave:
+        return wave_of(self.map, self._task, self.success)
 
 
-def _short(v: float) -> str:
-    """Return a value as it fits into a cell."""
-    return number(v, 1 if v > -10 else 0)
+class Wave(NamedTuple):
+    """The sweeps of a task, their largest errors, and its best actions."""
 
-
-class _Wave(NamedTuple):
     sweeps: tuple[np.ndarray, ...]
     errors: np.ndarray
     optimal: np.ndarray
@@ -157,7 +106,7 @@ def _tasks(map_: Map, task: int, success: float) -> NavigationTasks:
 
 
 @lru_cache(maxsize=64)
-def _wave(map_: Map, task: int, success: float) -> _Wave:
+def wave_of(map_: Map, task: int, success: float) -> Wave:
     """Return the sweeps of a task, until every value is right to a hundredth."""
     mdp = _tasks(map_, task, success).mdp
     best = optimal_values(mdp)
@@ -166,7 +115,7 @@ def _wave(map_: Map, task: int, success: float) -> _Wave:
         sweeps.append(v)
         errors.append(float(abs(v - best).max()))
         if errors[-1] < RIGHT:
-            return _Wave(tuple(sweeps), np.array(errors), optimal_actions(mdp, best))
+            return Wave(tuple(sweeps), np.array(errors), optimal_actions(mdp, best))
 
 
 def _steps(map_: Map, goal: int) -> np.ndarray:

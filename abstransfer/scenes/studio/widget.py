@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import traitlets
 
-from ...builders import BUILDERS, abstract_policies
-from ...driving import PAPER, ROWS, column
-from ...maps import Map, read_map
+from ...builders import abstract_policies
+from ...driving import column
+from ...maps import read_map
 from ...navigation import NavigationTasks, navigation_tasks
-from ...plotting.style import arm_style, count, number
-from ...solvers import evaluate_policy, optimal_values
-from ..base import MapTrait, Still
+from ..base import MapTrait
 from ..parts.drawn import DrawnScene, read_drawing
-from ..parts.stills import building_svg
 
 TOOLS = ("walk", "wall", "door", "room", "corridor", "goal")
 SHOWN = ("plain", "states", "nd", "prob", "grad", "optimal")
-MANY = 2000  # states: from here on, Python would be slow to climb to Grad
 
 
 class Studio(DrawnScene):
@@ -79,50 +75,5 @@ class Studio(DrawnScene):
         """The counts of the map, and its column of Table 1, built and driven in it."""
         return column(self.tasks, abstract_policies(self.tasks))
 
-    def still(self) -> Still:
-        """Return the building, its task under ND, and under the best policy."""
-        map_, tasks = self.map, self.tasks
-        small = tasks.mdp.n_states < MANY
-        policies = abstract_policies(tasks, BUILDERS if small else BUILDERS[:2])
-        row = column(tasks, policies)
-        task = min(self.task, len(map_.goals) - 1)
-        one = navigation_tasks(map_, keep=[task])
-        nd = evaluate_policy(one.mdp, policies["nd"][one.rho])
-        goal, start = int(map_.goals[task]), min(self.start, map_.n_cells - 1)
-        size = (
-            f"{count(map_.n_cells, 'cell')}, {count(map_.n_rooms, 'room')}, "
-            f"{count(map_.n_doors, 'door')} and {count(len(map_.goals), 'goal')}"
-        )
-        best = optimal_values(one.mdp)
-        looks = {"robot": start, "goal": goal}
-        frames = [building_svg(map_, f"A building with {size}.", **looks)]
-        for name, v in (("ND", nd), ("the best policy", best)):
-            alt = f"Values of {name}, from {number(v.min())} to 0 at the goal."
-            frames.append(building_svg(map_, alt, values=v, limits=(-100, 0), **looks))
-        names = {name: arm_style(name).name for name in ROWS}
-        values = ", ".join(
-            f"{names[name]} {number(row[name])}" for name in ROWS if name in row
-        )
-        caption = (
-            f"Map Studio: a building with {size}, which makes "
-            f"{count(tasks.mdp.n_states, 'state')} and "
-            f"{count(row['abstract_states'], 'abstract state')}. What a cell is worth, "
-            f"on average, to policies built in it: {values}."
-        )
-        paper = PAPER["source"] if _is_source(map_) else {}
-        rows = [
-            (names[name], _rounded(row.get(name)), _rounded(paper.get(name)))
-            for name in ROWS
-        ]
-        return Still(frames, caption, ("policy", "here", "the paper"), rows)
-
     def __repr__(self) -> str:
         return super().__repr__().replace("text=...", f"map={self.map!r}")
-
-
-def _is_source(map_: Map) -> bool:
-    return (map_.n_cells, map_.n_rooms, len(map_.goals)) == (135, 11, 11)
-
-
-def _rounded(x: float | None) -> str:
-    return "\u2013" if x is None else number(x, 2)

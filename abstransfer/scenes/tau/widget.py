@@ -5,9 +5,7 @@ from __future__ import annotations
 import traitlets
 
 from ...experiments.arms import ARMS, PAPER_STEPS, STRATEGIES, Arm
-from ..base import Still
-from ..parts.curves import curves_svg
-from ..parts.runs import NAMES, RunScene, scaled
+from ..parts.runs import RunScene
 
 GUIDES = ("nd", "prob", "grad", "rand")
 
@@ -63,53 +61,6 @@ class TauSlider(RunScene):
             if arm.tau or not arm.guide
         }
         return self.changed | {"curves": known | self.curves}
-
-    def still(self) -> Still:
-        """Return the curves without advice, with the paper's tau, and as set."""
-        here = dict.fromkeys(STRATEGIES, self.tau)
-        paper = {strategy: self._paper(strategy) for strategy in STRATEGIES}
-        none = self.learn(self.arm(None))
-        frames, totals = [self._frame({}, none)], []
-        for taus in (paper, here):
-            runs = {s: self.learn(self.arm(s, tau)) for s, tau in taus.items()}
-            totals.append([f"{runs[s].sum():,}" for s in STRATEGIES])
-            frames.append(self._frame(taus, none))
-        name, papers = NAMES[self.guide], [millions(tau) for tau in paper.values()]
-        (paper_hard, paper_soft), (hard, soft) = totals
-        caption = (
-            f"How long should a guide advise? With {name}, {millions(self.tau)} steps "
-            f"of advice lead to {hard} goals if it advises in all of them (hard), "
-            f"to {soft} if ever less often (soft); the paper's choices, {papers[0]} "
-            f"and {papers[1]}, to {paper_hard} and {paper_soft}; no advice, to "
-            f"{none.sum():,}."
-        )
-        rows = [(NAMES["none"], "\u2013", f"{none.sum():,}")]
-        for taus, goals in zip((paper, here), totals, strict=True):
-            rows += [
-                (f"{name} {strategy}", millions(taus[strategy]), total)
-                for strategy, total in zip(STRATEGIES, goals, strict=True)
-            ]
-        head = ("advice", "until step \u03c4", "goals of a whole run")
-        return Still(frames, caption, head, rows)
-
-    def _paper(self, strategy: str) -> int:
-        return next(a.tau for a in ARMS if a.name == f"{self.guide}-{strategy}")
-
-    def _frame(self, taus: dict, none) -> str:
-        """Return the curves with these tau, by strategy, and without advice."""
-        curves, names = {"none": none}, {"none": NAMES["none"]}
-        alt = "Goals by step, without advice"
-        for strategy, tau in taus.items():
-            arm = self.arm(strategy, tau)
-            curves[arm.name], names[arm.name] = self.learn(arm), strategy
-            alt += (
-                f", and with {NAMES[self.guide]} {strategy} until step {millions(tau)}"
-            )
-        mark = None
-        if len(set(taus.values())) == 1:
-            mark = scaled(self.arm("hard"), self.steps)
-        steps = self.scale.steps
-        return curves_svg(curves, alt + ".", names=names, steps=steps, mark=mark)
 
 
 def millions(steps: int) -> str:
