@@ -45,6 +45,63 @@ def restrict_policy(policy: np.ndarray, mask: np.ndarray) -> np.ndarray:
     )
 
 
+def ground(advice: np.ndarray, rho: np.ndarray, labels: np.ndarray) -> np.ndarray:
+    """
+    Return the policy (S, M) over moves that advice over labels asks for.
+
+    A label's chance is shared by the moves that carry it; labels that nothing
+    carries are left out, and the rest sums to 1.  Where nothing remains, the
+    moves that carry a label share the chance.
+
+    Parameters
+    ----------
+    advice : ndarray of float, shape (Z, L)
+        An abstract policy whose actions are labels.
+    rho : ndarray of int, shape (S,)
+        Abstract state of each state.
+    labels : ndarray of int, shape (S, M)
+        The label that each move carries, below 0 for a move that leads nowhere.
+
+    Raises
+    ------
+    ValueError
+        If a label is not one of the advice's.
+
+    References
+    ----------
+    The experiment files of the paper's group (2012) hold their abstract policies
+    in this form: chances of North, South, East and West.
+
+    Examples
+    --------
+    Two moves carry label 0, one carries label 1, and the fourth is a wall.
+
+    >>> ground(np.array([[0.5, 0.5]]), np.array([0]), np.array([[0, 0, 1, -1]]))
+    array([[0.25, 0.25, 0.5 , 0.  ]])
+    """
+    advice, labels = np.asarray(advice, dtype=float), np.asarray(labels)
+    if labels.max(initial=-1) >= advice.shape[1]:
+        raise ValueError(f"labels must lie below {advice.shape[1]}, got {labels.max()}")
+    carries = labels[:, :, None] == np.arange(advice.shape[1])  # (S, M, L)
+    carriers = np.maximum(carries.sum(axis=1), 1)  # (S, L)
+    moves = (carries * (advice[rho] / carriers)[:, None, :]).sum(axis=2)
+    return restrict_policy(moves, labels >= 0)
+
+
+def spoken(policy: np.ndarray, labels: np.ndarray, n_labels: int) -> np.ndarray:
+    """
+    Return what a policy (S, M) over moves says in labels, (S, L).
+
+    Each move hands its chance to the label (S, M) it carries.  So the best moves
+    of a robot with a compass can vote for advice that needs none.
+
+    >>> spoken(np.array([[0.5, 0.0, 0.5, 0.0]]), np.array([[0, 0, 1, -1]]), 2)
+    array([[0.5, 0.5]])
+    """
+    carries = np.asarray(labels)[:, :, None] == np.arange(n_labels)
+    return (carries * np.asarray(policy)[:, :, None]).sum(axis=1)
+
+
 def break_ties(optimal: np.ndarray, ties: str = "share", *, rng=None) -> np.ndarray:
     """
     Return an optimal policy (S, A), given which actions are optimal (S, A).

@@ -23,6 +23,8 @@ from abstransfer import (
     uniform_policy,
     unseen_share,
 )
+from abstransfer.policies import ground, spoken
+from abstransfer.solvers import evaluate_policy
 
 BUILDERS = pytest.mark.parametrize(
     "induce", [induce_probabilistic, induce_nondeterministic]
@@ -373,3 +375,41 @@ def test_shapes_that_do_not_match_are_refused(induce, rho, fallback, said):
         induce(np.array([[1.0, 0], [0, 1.0]]), np.array(rho), fallback)
 
     assert str(refusal.value) == said
+
+
+# Advice over labels, for a robot that moves by compass
+
+
+def test_grounded_advice_is_as_worked_out_by_hand():
+    """Row by row: shared among carriers; a label that is not there; only that one."""
+    labels = np.array([[0, 0, 1, -1], [1, -1, 2, -1], [0, -1, -1, 0]])
+    advice = np.array([[0.4, 0.2, 0.4], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]])
+
+    np.testing.assert_allclose(
+        ground(advice, np.arange(3), labels),
+        [[1 / 3, 1 / 3, 1 / 3, 0], [1, 0, 0, 0], [0.5, 0, 0, 0.5]],
+    )
+
+
+def test_what_moves_say_is_as_worked_out_by_hand():
+    labels = np.array([[0, 0, 1, -1]])
+
+    np.testing.assert_allclose(
+        spoken(np.array([[0.1, 0.2, 0.7, 0.0]]), labels, 3), [[0.3, 0.7, 0]]
+    )
+
+
+def test_advice_drives_a_compass_robot_as_it_drives_one_that_goes_by_labels():
+    tasks = navigation_tasks(read_map("source"))
+    compass = navigation_tasks(read_map("source"), actions="compass")
+    advice = induce_probabilistic(votes_of(tasks), tasks.rho, tasks.possible)
+
+    np.testing.assert_allclose(
+        evaluate_policy(compass.mdp, ground(advice, compass.rho, compass.labels)),
+        evaluate_policy(tasks.mdp, advice[tasks.rho]),
+    )
+
+
+def test_a_label_that_the_advice_does_not_know_is_refused():
+    with pytest.raises(ValueError, match="labels must lie below 2, got 2"):
+        ground(np.array([[0.5, 0.5]]), np.zeros(1, int), np.array([[0, 1, 2, -1]]))
