@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
-from .abstraction import unseen_share
+from .abstraction import LABELS, unseen_share
 from .builders import BUILDERS, abstract_policies
 from .navigation import NavigationTasks
-from .policies import restrict_policy, uniform_policy
+from .policies import ground, restrict_policy, uniform_policy
 from .solvers import evaluate_policy, optimal_values
 
 ROWS = ("rand", *BUILDERS, "optimal")
@@ -28,6 +28,18 @@ PAPER = {
     "source": dict(zip(ROWS, (-88.97, -44.61, -36.91, -30.65, -14.86), strict=True)),
     "target": dict(zip(ROWS, (-97.07, -80.41, -70.03, -70.34, -29.13), strict=True)),
 }
+
+
+def advised(tasks: NavigationTasks, advice: np.ndarray) -> np.ndarray:
+    """
+    Return the policy (S, A) of a robot that obeys advice (Z, A), or (Z, labels).
+
+    Advice over a compass robot's own four moves is obeyed as it stands; advice
+    over labels is grounded in the moves that carry them.
+    """
+    if tasks.actions != LABELS and advice.shape[1] == len(LABELS):
+        return ground(advice, tasks.rho, tasks.labels)
+    return restrict_policy(advice[tasks.rho], tasks.mdp.allowed)
 
 
 def executed_values(
@@ -47,7 +59,8 @@ def executed_values(
     {'nd': -0.5}
     """
     return {
-        name: _mean_value(tasks, policy[tasks.rho]) for name, policy in policies.items()
+        name: _mean_value(tasks, advised(tasks, policy))
+        for name, policy in policies.items()
     }
 
 
@@ -77,8 +90,7 @@ def column(
 
 
 def _mean_value(tasks: NavigationTasks, policy: np.ndarray) -> float:
-    allowed = restrict_policy(policy, tasks.mdp.allowed)
-    return float(evaluate_policy(tasks.mdp, allowed).mean())
+    return float(evaluate_policy(tasks.mdp, policy).mean())
 
 
 def table1(

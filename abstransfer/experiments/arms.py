@@ -8,6 +8,7 @@ module.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -22,6 +23,11 @@ class Arm(NamedTuple):
     guide: str | None  # "rand", a builder, or the name of a policy you pass
     strategy: str  # "hard" or "soft"; not read without a guide
     tau: int  # steps of advice, at paper scale
+    hint: float = 0.0  # first note on the actions that exist, above all others
+
+    def record(self) -> dict:
+        """Return the arm for JSON; without a hint, as before there was one."""
+        return {k: v for k, v in self._asdict().items() if k != "hint" or v}
 
 
 ARMS = (
@@ -96,6 +102,8 @@ def check_arms(arms: Iterable[Arm]) -> tuple[Arm, ...]:
                 f"tau of arm {arm.name!r} must be a whole number of steps, "
                 f"at least 0, got {arm.tau}"
             )
+        if not math.isfinite(arm.hint):
+            raise ValueError(f"hint of arm {arm.name!r} must be finite, got {arm.hint}")
     keys = [(arm.name, arm.tau) for arm in arms]
     twice = next((key for key in keys if keys.count(key) > 1), None)
     if twice:

@@ -85,7 +85,7 @@ def parameters(plan: Plan) -> dict:
         "steps": plan.scale.steps,
         "window": plan.scale.window,
         "arms": [
-            arm._asdict() | {"tau_steps": plan.scale.tau(arm)} for arm in plan.arms
+            arm.record() | {"tau_steps": plan.scale.tau(arm)} for arm in plan.arms
         ],
         "runs": plan.n_runs,
         "seed": plan.seed,
@@ -119,6 +119,7 @@ def make_jobs(plan: Plan, done: np.ndarray) -> Iterator[tuple[tuple[int, int], J
                             np.random.SeedSequence(plan.seed, spawn_key=(stream, run))
                             for run in runs
                         ),
+                        arm.hint,
                     ),
                 )
 

@@ -9,16 +9,24 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache, partial
 
 import numpy as np
 
 from .._paths import DATA
-from ..builders import BUILDERS, abstract_policies
+from ..abstraction import LABELS
+from ..builders import (
+    BUILDERS,
+    abstract_policies,
+    induce_nondeterministic,
+    induce_probabilistic,
+)
 from ..learning.settings import Settings, check
 from ..maps import Map, read_map
 from ..navigation import NavigationTasks, check_options, navigation_tasks
+from ..policies import break_ties, spoken
+from ..solvers import optimal_actions, optimal_values
 
 GUIDES = ("rand", *BUILDERS)
 
@@ -33,8 +41,12 @@ class Problem:
     source, target : Map
         Where the policies come from, and where they give advice.
     reward : {"goal", "cost"}
-        ``"goal"``: 1 on reaching the goal, else 0; the convention under which
-        the paper's figures come out.  ``"cost"``: -1 a step, the paper's rule.
+        ``"goal"``: 1 on reaching the goal, else 0, as in the files of the paper's
+        group.  ``"cost"``: -1 a step, which the paper states for building and
+        evaluating policies; it states no reward for learning.
+    actions : {"relational", "compass"}
+        What the learner chooses from: the labels it sees, or N, E, S, W.  Advice
+        speaks labels in both cases.
     unavailable, success
         As for :func:`~abstransfer.navigation.navigation_tasks`.
     q0, alpha, epsilon, gamma, max_episode
@@ -56,6 +68,7 @@ class Problem:
     source: Map = field(default_factory=partial(read_map, "source"))
     target: Map = field(default_factory=partial(read_map, "target"))
     reward: str = "goal"
+    actions: str = "relational"
     unavailable: str = "wait"
     success: float = 0.9
     q0: float = Settings.q0
@@ -66,7 +79,10 @@ class Problem:
 
     def __post_init__(self):
         check_options(
-            success=self.success, reward=self.reward, unavailable=self.unavailable
+            success=self.success,
+            reward=self.reward,
+            actions=self.actions,
+            unavailable=self.unavailable,
         )
         for name in ("q0", "alpha", "epsilon", "gamma", "max_episode"):
             object.__setattr__(self, name, check(name, getattr(self, name)))
@@ -74,6 +90,8 @@ class Problem:
     def record(self) -> dict:
         """Return everything that makes this problem, for JSON."""
         numbers = {f.name: getattr(self, f.name) for f in fields(self)[2:]}
+        if self.actions == "relational":  # as in results from before there was a choice
+            del numbers["actions"]
         maps = {"source": self.source, "target": self.target}
         return {name: _map_record(map_) for name, map_ in maps.items()} | numbers
 
@@ -85,6 +103,7 @@ def target_tasks(problem: Problem) -> NavigationTasks:
         problem.target,
         success=problem.success,
         reward=problem.reward,
+        actions=problem.actions,
         unavailable=problem.unavailable,
     )
 
@@ -94,26 +113,44 @@ def build_guides(problem: Problem, names: Iterable[str]) -> dict[str, np.ndarray
     Return the abstract policies (Z, A) of these names, built in the source.
 
     They are built, and driven, with discount 0.99 and a cost of 1 a step,
-    whatever reward the learner gets.
+    whatever reward the learner gets.  With a compass, a best move (one by chance, of
+    several) votes for the label it carries, and "rand" draws from the four moves.
 
     >>> build_guides(Problem(), ["rand"])["rand"][0]
     array([0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125])
     """
     names = list(names)
-    source = navigation_tasks(
-        problem.source, success=problem.success, unavailable=problem.unavailable
-    )
+    options = {"success": problem.success, "unavailable": problem.unavailable}
+    source = navigation_tasks(problem.source, **options)
     guides = abstract_policies(source, [name for name in names if name != "rand"])
+    moves = len(source.actions)
+    if problem.actions == "compass":
+        compass = navigation_tasks(problem.source, actions="compass", **options)
+        guides |= _voted_by_moves(compass, source.possible, guides)
+        moves = len(compass.actions)
     if "rand" in names:
-        guides["rand"] = np.full(source.possible.shape, 1 / len(source.actions))
+        guides["rand"] = np.full((source.n_abstract, moves), 1 / moves)
     return guides
 
 
 def driving_tasks(problem: Problem) -> NavigationTasks:
     """Return the tasks in which a policy is driven: those of the target, at a cost."""
-    return navigation_tasks(
-        problem.target, success=problem.success, unavailable=problem.unavailable
-    )
+    return target_tasks(replace(problem, reward="cost"))
+
+
+def _voted_by_moves(compass, possible, names) -> dict[str, np.ndarray]:
+    """Return ND and Prob, where wanted, that the best moves of a compass vote for."""
+    # Moves tie far more often than labels do.  One by chance is a policy such as
+    # the paper's pi*, and Table 1 comes out; sharing makes ND broader than it is.
+    optimal = optimal_actions(compass.mdp, optimal_values(compass.mdp))
+    best = break_ties(optimal, "random", rng=0)
+    votes = spoken(best, compass.labels, len(LABELS))
+    induce = {"nd": induce_nondeterministic, "prob": induce_probabilistic}
+    return {
+        name: induce[name](votes, compass.rho, possible)
+        for name in names
+        if name in induce
+    }
 
 
 def digest(data: bytes) -> str:

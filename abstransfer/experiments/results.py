@@ -82,7 +82,9 @@ def load_results(folder: str | Path) -> Results:
     if not (folder / TABLE).is_file():
         raise FileNotFoundError(f"{folder}: the experiment has not finished; resume it")
     parameters = record["parameters"]
-    arms = tuple(Arm(*(a[f] for f in Arm._fields)) for a in parameters["arms"])
+    arms = tuple(
+        Arm(**{f: a[f] for f in Arm._fields if f in a}) for a in parameters["arms"]
+    )
     n_windows = parameters["steps"] // parameters["window"]
     shape = len(arms), parameters["runs"], n_windows
     with gzip.open(folder / TABLE, "rt", encoding="ascii") as file:

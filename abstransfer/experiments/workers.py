@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..policies import restrict_policy
+from ..driving import advised
 from .arms import Scale
 from .problem import Problem, target_tasks
 
@@ -34,6 +34,7 @@ class Job(NamedTuple):
     guide: np.ndarray | None  # (Z, A)
     scale: Scale
     seeds: tuple[np.random.SeedSequence, ...]  # one per run
+    hint: float = 0.0  # first note on what can be done, above the problem's q0
 
 
 def run_job(
@@ -54,9 +55,7 @@ def run_job(
 
     go_on(0)
     tasks, problem = target_tasks(job.problem), job.problem
-    guide = None
-    if job.guide is not None:
-        guide = restrict_policy(job.guide[tasks.rho], tasks.mdp.allowed)
+    guide = None if job.guide is None else advised(tasks, job.guide)
     began = time.thread_time()
     runs = q_learning_runs(
         tasks.mdp,
@@ -69,7 +68,7 @@ def run_job(
         alpha=problem.alpha,
         epsilon=problem.epsilon,
         gamma=problem.gamma,
-        q0=problem.q0,
+        q0=problem.q0 + job.hint * tasks.available,
         max_episode=problem.max_episode,
         window=job.scale.window,
     )

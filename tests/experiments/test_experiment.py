@@ -12,10 +12,16 @@ import pytest
 from support import NoExecutor, unavailable
 
 from abstransfer import read_map
+from abstransfer.driving import advised, executed_values
 from abstransfer.experiments import workers
 from abstransfer.experiments.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
-from abstransfer.experiments.problem import Problem, build_guides, target_tasks
+from abstransfer.experiments.problem import (
+    Problem,
+    build_guides,
+    driving_tasks,
+    target_tasks,
+)
 from abstransfer.experiments.results import (
     Results,
     load_results,
@@ -263,6 +269,10 @@ def test_a_folder_of_another_experiment_is_refused_by_name(
         ({"arms": (Arm("x", "nd", "hard", float("nan")),)}, "tau of arm 'x'"),
         ({"arms": (Arm("x", "best", "hard", 5),)}, "guide of arm 'x' must be one of"),
         ({"arms": (Arm("a,b", None, "hard", 0),)}, "plain word"),
+        (
+            {"arms": (Arm("x", None, "hard", 0, float("inf")),)},
+            "hint of arm 'x' must be finite, got inf",
+        ),
     ],
 )
 def test_bad_arguments_are_refused_before_a_step(tmp_path, options, complaint):
@@ -277,6 +287,7 @@ def test_bad_arguments_are_refused_before_a_step(tmp_path, options, complaint):
     ("name", "value"),
     [
         ("reward", "gold"),
+        ("actions", "dance"),
         ("unavailable", "jump"),
         ("success", 0.0),
         ("q0", float("inf")),
@@ -330,3 +341,61 @@ def test_masked_actions_and_the_cost_reward_can_be_learned_with():
     ]
 
     assert (goals[0] != goals[1]).any()
+
+
+# First notes on what can be done, and a learner with a compass
+
+
+def test_a_hint_is_a_first_note_on_the_actions_that_exist():
+    hinted = Arm("hinted", None, "hard", 0, 1e-12)
+    tasks = target_tasks(PROBLEM)
+    by_hand = q_learning(
+        tasks.mdp,
+        SMALL.steps,
+        rng=np.random.SeedSequence(2015, spawn_key=(0, 0)),
+        q0=np.where(tasks.available, 1e-12, 0.0),
+        window=SMALL.window,
+    )
+
+    results = run((hinted,), n_runs=1)
+
+    assert by_hand.goals.any()
+    np.testing.assert_array_equal(results.curves("hinted")[0], by_hand.goals)
+
+
+def test_a_stored_arm_comes_back_with_its_hint(tmp_path):
+    arms = (ARMS[0], Arm("hinted", None, "hard", 0, 1e-12))
+    run(arms, n_runs=1, out=tmp_path)
+
+    assert load_results(tmp_path).arms == arms
+
+
+def test_an_arm_without_hint_is_recorded_as_before_there_was_one():
+    assert "hint" not in parameters(make_plan(THREE, PROBLEM, SMALL, 1))["arms"][0]
+    assert "actions" not in PROBLEM.record()
+
+
+def test_a_learner_with_a_compass_is_advised_in_labels_and_moves_by_compass():
+    """Random draws from its four moves; the advice reaches open ways only."""
+    problem = Problem(
+        source=read_map("source"), target=read_map("source"), actions="compass"
+    )
+    tasks, guides = target_tasks(problem), build_guides(problem, ["rand", "nd"])
+    policy = advised(tasks, guides["nd"])
+
+    assert tasks.actions == ("N", "E", "S", "W")
+    assert guides["nd"].shape[1] == 8
+    assert (policy[tasks.labels < 0] == 0).all()
+    np.testing.assert_array_equal(advised(tasks, guides["rand"]), 0.25)
+    assert run(problem=problem, n_runs=1).goals.shape == (3, 1, 3)
+
+
+def test_compass_voters_give_the_papers_source_column_within_two_percent():
+    """Table 1: -44.61 for ND, -36.91 for Prob, -30.65 for Grad."""
+    problem = Problem(target=read_map("source"), actions="compass")
+    guides = build_guides(problem, ["nd", "prob", "grad"])
+    values = executed_values(driving_tasks(problem), guides)
+
+    assert values["nd"] == pytest.approx(-44.61, rel=0.02)
+    assert values["prob"] == pytest.approx(-36.91, rel=0.02)
+    assert values["grad"] == pytest.approx(-30.65, rel=0.02)
