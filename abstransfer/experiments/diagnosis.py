@@ -16,7 +16,13 @@ from scipy.sparse.csgraph import breadth_first_order
 from ..learning import q_learning_runs
 from ..learning.settings import whole
 from ..mdp import MDP, check_policy
-from ..solvers import evaluate_policy, optimal_values, transition_matrix
+from ..policies import uniform_policy
+from ..solvers import (
+    evaluate_policy,
+    factorize,
+    optimal_values,
+    transition_matrix,
+)
 
 
 class Arrival(NamedTuple):
@@ -120,11 +126,128 @@ def notes_after(
     best = optimal_values(game)[way].mean()
     tried = [(run.q != above)[way][mdp.allowed[way]].mean() for run in walks]
     informed = [(run.q.max(axis=1) > 0)[way].mean() for run in runs]
-    skill = [evaluate_policy(game, _obeyed(run.q))[way].mean() / best for run in runs]
+    skill = [
+        evaluate_policy(game, obeyed(run.q, mdp.allowed))[way].mean() / best
+        for run in runs
+    ]
     goals = [run.goals.sum() for run in runs]
     return Notes(*(float(np.mean(x)) for x in (goals, tried, informed, skill)))
 
 
-def _obeyed(q: np.ndarray) -> np.ndarray:
+def obeyed(q: np.ndarray, allowed: np.ndarray, epsilon: float = 0.0) -> np.ndarray:
+    """
+    Return the policy (S, A) of obeying notes q (S, A), but for a share of luck.
+
+    >>> obeyed(np.array([[0.5, 0.5, 0.0]]), np.ones((1, 3), bool), 0.3).round(2)
+    array([[0.45, 0.45, 0.1 ]])
+    """
     largest = q == q.max(axis=1, keepdims=True)
-    return largest / largest.sum(axis=1, keepdims=True)
+    largest = largest / largest.sum(axis=1, keepdims=True)
+    return (1 - epsilon) * largest + epsilon * uniform_policy(allowed)
+
+
+def ready(
+    mdp: MDP, q: np.ndarray, *, epsilon: float = 0.1, n_steps: int = 1000
+) -> float:
+    """
+    Return the share of starts that arrive in time by notes q (S, A), frozen.
+
+    It is exact, and asks what the learner will do with the notes at first: act
+    epsilon-greedily on them.
+
+    >>> mdp = MDP([[[0], [1]], [[1], [1]]], np.ones((2, 2, 1)), [0, 1],
+    ...           [False, True], 0.9)
+    >>> ready(mdp, np.array([[1.0, 0.0], [0.0, 0.0]]), epsilon=0.5, n_steps=2)
+    0.4375
+    """
+    policy = obeyed(q, mdp.allowed, epsilon)
+    return float(arrival(mdp, policy, n_steps).arrived[~mdp.terminal].mean())
+
+
+def stuck(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> np.ndarray:
+    """
+    Return where the episodes stand that have not arrived in `n_steps`, (S,).
+
+    Each state that is not terminal starts equally often; the sum is the share
+    of episodes that are late.
+
+    >>> mdp = MDP([[[0, 1]], [[1, 1]]], np.full((2, 1, 2), 0.5), [0, 1],
+    ...           [False, True], 0.9)
+    >>> stuck(mdp, np.ones((2, 1)), n_steps=3).tolist()
+    [0.125, 0.0]
+    """
+    moves = transition_matrix(mdp, check_policy(policy, mdp)).T.tocsr()
+    share = np.where(mdp.terminal, 0.0, 1.0)
+    share /= share.sum()
+    for _ in range(n_steps):
+        share = np.where(mdp.terminal, 0.0, moves @ share)
+    return share
+
+
+def judged(mdp: MDP, policy: np.ndarray, gamma: float) -> float:
+    """
+    Return how well a policy (S, A) drives for a judge of patience `gamma`.
+
+    The mean value in percent of the worst, for a cost of 1 a step: 0 has
+    arrived, -100 never will, whatever the patience.
+
+    >>> mdp = MDP([[[1]], [[1]]], np.ones((2, 1, 1)), [-1, 0], [False, True], 0.9)
+    >>> round(judged(mdp, np.ones((2, 1)), 0.5), 6)  # -1 of -2, and 0 of -2
+    -25.0
+    """
+    if not 0 <= gamma < 1:
+        raise ValueError(f"gamma must satisfy 0 <= gamma < 1, got {gamma}")
+    game = replace(mdp, gamma=gamma, reward=np.where(mdp.terminal, 0.0, -1.0))
+    return float(100 * (1 - gamma) * evaluate_policy(game, policy).mean())
+
+
+def change_of_mind(
+    mdp: MDP, a: np.ndarray, b: np.ndarray, low: float = 0.9, high: float = 0.9999
+) -> float:
+    """
+    Return the patience at which policies a and b (S, A) are judged alike.
+
+    Found by halving the judge's horizon 1 / (1 - gamma), on a scale of logs, to
+    three digits; nan if the same one is better at both ends.
+    """
+
+    def lead(log_horizon):
+        gamma = 1 - np.exp(-log_horizon)
+        return judged(mdp, a, gamma) - judged(mdp, b, gamma)
+
+    ends = [-np.log1p(-gamma) for gamma in (low, high)]
+    signs = [np.sign(lead(end)) for end in ends]
+    if signs[0] == signs[1]:
+        return float("nan")
+    while ends[1] - ends[0] > 1e-3:
+        middle = sum(ends) / 2
+        ends[int(np.sign(lead(middle)) != signs[0])] = middle
+    return float(1 - np.exp(-sum(ends) / 2))
+
+
+def return_variation(mdp: MDP, policy: np.ndarray) -> float:
+    """
+    Return the coefficient of variation of a policy's return, exactly.
+
+    Over starts in all states that are not terminal, and over the luck of moves:
+    standard deviation by the size of the mean.
+
+    References
+    ----------
+    Fachantidis, Taylor & Vlahavas (2017), Learning to Teach Reinforcement
+    Learning Agents, on what tells good advisers from good performers.
+
+    >>> mdp = MDP([[[0, 1]], [[1, 1]]], np.full((2, 1, 2), 0.5), [-1, 0],
+    ...           [False, True], 0.5)
+    >>> round(return_variation(mdp, np.ones((2, 1))) ** 2, 6)  # (40/21) / (4/3)^2 - 1
+    0.071429
+    """
+    v = evaluate_policy(mdp, policy)
+    moves = transition_matrix(mdp, check_policy(policy, mdp))
+    # G = r + gamma G': so E G^2 = r^2 + 2 r gamma E G' + gamma^2 E G'^2.
+    once = mdp.reward**2 + 2 * mdp.reward * mdp.gamma * (moves @ v)
+    game = replace(mdp, gamma=mdp.gamma**2)
+    square = factorize(game, moves).solve(once)
+    way = ~mdp.terminal
+    mean = v[way].mean()
+    return float(np.sqrt(square[way].mean() - mean**2) / abs(mean))
