@@ -169,7 +169,7 @@ class Left(NamedTuple):
     digested: dict[str, np.ndarray]  # the same experience, thought through
     best: np.ndarray  # Q* (S, A)
     available: np.ndarray  # (S, A) bool
-    rng: np.random.Generator
+    rng: np.random.Generator  # the surgeon's luck
 
 
 def leave(
@@ -182,6 +182,7 @@ def leave(
     gamma: float = 0.9,
     max_episode: int = 5000,
     think: Iterable[str] = (),
+    rng=0,
 ) -> Left:
     """
     Return what robots have noted after `tau` steps of hard advice, one a guide.
@@ -192,9 +193,11 @@ def leave(
         Handed on to the surgeon.
     guides : dict from name to policy (S, A)
     seed : int or SeedSequence
-        The luck of every robot, and another stream of it for the surgeon.
+        The luck of every robot.
     think : iterable of names
         Guides whose experience is thought through as well; it takes memory.
+    rng : int, SeedSequence or Generator
+        The luck of the surgeon.
     """
     think, notes, digested = set(think), {}, {}
     options = {"gamma": gamma, "tau": tau, "max_episode": max_episode}
@@ -204,12 +207,8 @@ def leave(
         notes[name] = run.q
         if name in think:
             digested[name] = digest(mdp, run.trace, gamma)
-    rng = np.random.default_rng(
-        np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, 1))
-        if isinstance(seed, np.random.SeedSequence)
-        else [seed, 1]
-    )
-    return Left(notes, digested, best_notes(mdp, gamma), available, rng)
+    best = best_notes(mdp, gamma)
+    return Left(notes, digested, best, available, np.random.default_rng(rng))
 
 
 def go_on(

@@ -143,16 +143,6 @@ def test_after_the_advice_a_run_depends_on_its_notes_alone(tasks, eager):
     assert goals[0] == goals[1] > go_on(tasks.mdp, 0 * copy, 30_000, seed=8)
 
 
-def test_the_surgeons_luck_is_the_runs_own(tasks):
-    seeds = [np.random.SeedSequence(1, spawn_key=(2, run)) for run in (0, 0, 1)]
-    numbers = [
-        leave(tasks.mdp, tasks.available, {}, 0, seed=seed).rng.random()
-        for seed in seeds
-    ]
-
-    assert numbers[0] == numbers[1] != numbers[2]
-
-
 # What the surgeon measures
 
 
