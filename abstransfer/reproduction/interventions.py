@@ -17,9 +17,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..driving import advised
 from ..experiments.arms import PAPER_STEPS, Arm
 from ..experiments.plan import SEED
-from ..experiments.problem import Problem, advised, target_tasks
+from ..experiments.problem import Problem, target_tasks
 from ..experiments.results import Results, load_results, save_results
 from ..experiments.surgery import (
     Left,
