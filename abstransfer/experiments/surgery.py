@@ -9,7 +9,7 @@ Page 10 of the book teaches this module.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -212,21 +212,14 @@ def leave(
 
 
 def go_on(
-    mdp: MDP,
-    notes: np.ndarray,
-    n_steps: int,
-    *,
-    seed,
-    on_progress: Callable[[int], None] | None = None,
-    **options,
-) -> int:
-    """Return the goals of a robot that goes on alone from notes (S, A)."""
-    (run,) = q_learning_runs(
-        mdp,
-        n_steps,
-        rngs=[seed],
-        q0=np.where(mdp.allowed, notes, 0.0),
-        on_progress=on_progress,
-        **options,
-    )
-    return int(run.goals.sum())
+    mdp: MDP, tables: Iterable[np.ndarray], n_steps: int, *, seed, **options
+) -> list[int]:
+    """
+    Return the goals of robots that go on alone, each from its notes (S, A).
+
+    All have the same luck.  Options: see :func:`~abstransfer.learning.q_learning`.
+    """
+    q0s = [np.where(mdp.allowed, notes, 0.0) for notes in tables]
+    seeds = [seed] * len(q0s)
+    runs = q_learning_runs(mdp, n_steps, rngs=seeds, q0s=q0s, **options)
+    return [int(run.goals.sum()) for run in runs]

@@ -51,10 +51,10 @@ def set_up(settings: Settings) -> Setup:
 class RunState:
     """One run: its values, its luck, and what it has counted so far."""
 
-    def __init__(self, setup: Setup, rng):
+    def __init__(self, setup: Setup, rng, q0: np.ndarray):
         settings, mdp = setup.settings, setup.settings.mdp
         self.q = _aligned((mdp.n_states, WIDTH if setup.tables else mdp.n_actions))
-        self.q[:, : mdp.n_actions] = settings.q0
+        self.q[:, : mdp.n_actions] = q0
         state = seed_state(rng)
         start = settings.start[
             (int(next_word(state[STARTS])) * len(settings.start)) >> 32
@@ -89,9 +89,9 @@ class RunState:
 class Together:
     """Runs that are at the same step: one, or three that take turns."""
 
-    def __init__(self, setup: Setup, rngs):
+    def __init__(self, setup: Setup, runs):
         self.setup = setup
-        self.runs = [RunState(setup, rng) for rng in rngs]
+        self.runs = [RunState(setup, rng, q0) for rng, q0 in runs]
         self.n_steps = 0
 
     def advance(self, last: int) -> int:

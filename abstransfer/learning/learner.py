@@ -14,6 +14,7 @@ epsilon-greedy does (``soft``, Algorithm 2).  Nothing here knows a grid.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -116,6 +117,7 @@ def q_learning_runs(
     n_steps: int,
     *,
     rngs: Iterable,
+    q0s: Iterable[np.ndarray] | None = None,
     on_progress: Callable[[int], None] | None = None,
     **options,
 ) -> list[QLearningResult]:
@@ -123,9 +125,10 @@ def q_learning_runs(
     Return what independent runs learn, one for each of `rngs`.
 
     A run's result does not depend on its company, but three runs take half the
-    time together: give them by threes.  Options: see :func:`q_learning`.
+    time together: give them by threes.  `q0s` are the values to start from, one
+    table (S, A) a run, in place of `q0`.  Options: see :func:`q_learning`.
     """
-    learner = Learner(mdp, rngs=rngs, **options)
+    learner = Learner(mdp, rngs=rngs, q0s=q0s, **options)
     learner.advance(n_steps, on_progress=on_progress)
     return learner.results()
 
@@ -145,18 +148,26 @@ class Learner:
     [7, 7]
     """
 
-    def __init__(self, mdp: MDP, *, rngs: Iterable, **options):
+    def __init__(self, mdp: MDP, *, rngs: Iterable, q0s=None, **options):
         self.settings = Settings(mdp, **options)
         self.n_steps = 0  # that each run has taken, or still owes
         seeds = list(rngs) if np.iterable(rngs) else []
         if not seeds:
             raise ValueError(f"rngs must hold at least one seed, got {rngs!r}")
+        tables = [self.settings.q0] * len(seeds)
+        if q0s is not None:
+            tables = [replace(self.settings, q0=table).q0 for table in q0s]
+        if len(tables) != len(seeds):
+            raise ValueError(
+                f"q0s must hold one table a run, {len(seeds)}, got {len(tables)}"
+            )
         from . import _runs  # not before the first run: it loads the compiler
 
         _runs.say_if_compiling()
         setup, threes = _runs.set_up(self.settings), len(seeds) // 3 * 3
-        parts = [seeds[i : i + 3] for i in range(0, threes, 3)]
-        parts += [[seed] for seed in seeds[threes:]]
+        runs = list(zip(seeds, tables, strict=True))
+        parts = [runs[i : i + 3] for i in range(0, threes, 3)]
+        parts += [[run] for run in runs[threes:]]
         self._parts = [_runs.Together(setup, part) for part in parts]
 
     def advance(

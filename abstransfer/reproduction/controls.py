@@ -22,16 +22,14 @@ from ..experiments.results import Results, load_results
 from ..experiments.run import run_experiment
 from ..experiments.tuning import tune, tuned_arms
 from ..maps import read_map
-from .interventions import ROBOTS, TINY
-from .study import ADVICE, TAU, make_guides
+from .catalogue import ADVICE, TAU, make_guides
+from .interventions import TINY
 
 TARGETS = ("target", "target_b", "target_c", "target_d")
 HINT = Arm("hint", None, "hard", 0, TINY)
 EAGER = tuple(Arm(f"eager-{s}", "available", s, TAU[s]) for s in STRATEGIES)
 #: Between the points of the first grid, in steps at paper scale.
 FINE = tuple(round(1e6 * tau) for tau in (2.5, 3, 4, 4.5, 5, 7.5, 12, 16))
-SOME = ("beta-0", "beta-0.25", "beta-0.5", "beta-1", "beta-4")
-SOME += (ROBOTS["half"], ROBOTS["eager"])
 
 
 def trap_views(problem: Problem, advice: np.ndarray, share: float = 0.9) -> np.ndarray:
@@ -84,7 +82,14 @@ TRAPS = tuple(
         "prob-eager",
     )
 )
-SEVEN = tuple(Arm(f"{name}-{s}", name, s, TAU[s]) for name in SOME for s in STRATEGIES)
+#: ND, Prob, half ND half eager, and eager: each at its own tau.
+FOUR = tuple(
+    Arm(f"{name}-{s}", name, s, TAU[s])
+    for name in ("beta-0", "beta-1", "nd-available-0.5", "available")
+    for s in STRATEGIES
+)
+OWN_TAUS = {"hard": (2_000_000, 3_500_000, 6_000_000)}
+OWN_TAUS["soft"] = (6_000_000, 9_000_000, 11_000_000)
 
 
 class Control(NamedTuple):
@@ -94,52 +99,47 @@ class Control(NamedTuple):
     arms: tuple[Arm, ...]
     target: str = "target"
     problem: Mapping = {}  # what is not the problem of the book
-    n_runs: int = 20
+    n_runs: int = 10
     tuned_by: str | None = None  # folder of the grid whose best tau to take
     grid: bool = False  # with the tuning seeds
 
 
 def _of_building(target: str) -> tuple[Control, ...]:
-    compass = {"actions": "compass"}
+    compass, n_runs = {"actions": "compass"}, 10 if target == "target" else 6
+    tuned_by = "compass-target-tau"
     return (
         Control(f"controls-{target}", (HINT, *EAGER), target),
         Control(
-            f"masked-{target}", ARMS[:1] + ARMS[3:7], target, {"unavailable": "masked"}
-        ),
-        Control(f"traps-{target}", TRAPS, target),
-        Control(f"compass-{target}", (*ARMS, HINT, *EAGER), target, compass),
-        Control(
-            f"compass-{target}-tau",
-            tau_cells(taus=TAUS[:8]),
+            f"masked-{target}",
+            (ARMS[0], ARMS[3], ARMS[5]),  # none, ND hard, Prob hard
             target,
-            compass,
-            4,
-            grid=True,
+            {"unavailable": "masked"},
         ),
-        Control(
-            f"compass-{target}-tuned",
-            ARMS,
-            target,
-            compass,
-            tuned_by=f"compass-{target}-tau",
-        ),
+        Control(f"traps-{target}", TRAPS, target, n_runs=8),
+        Control(f"compass-{target}", (*ARMS, HINT, *EAGER), target, compass, n_runs),
+        Control(f"compass-{target}-tuned", ARMS, target, compass, n_runs, tuned_by),
     )
 
 
 CONTROLS = (
-    *(control for target in TARGETS for control in _of_building(target)),
-    Control("goal-target-tau-fine", tau_cells(taus=FINE), n_runs=10, grid=True),
     Control(
-        "study-own-tau",
-        tuple(
-            arm._replace(tau=tau)
-            for arm in SEVEN
-            for tau in TAUS[1:7]  # 1 to 11 million
-        ),
-        n_runs=5,
+        "compass-target-tau",
+        tau_cells(taus=TAUS[:8]),
+        problem={"actions": "compass"},
+        n_runs=4,
         grid=True,
     ),
-    Control("study-own", SEVEN, tuned_by="study-own-tau"),
+    *(control for target in TARGETS for control in _of_building(target)),
+    Control(
+        "goal-target-tau-fine", tau_cells(ARMS[3:7], FINE), n_runs=6, grid=True
+    ),  # ND and Prob
+    Control(
+        "study-own-tau",
+        tuple(arm._replace(tau=t) for arm in FOUR for t in OWN_TAUS[arm.strategy]),
+        n_runs=4,
+        grid=True,
+    ),
+    Control("study-own", FOUR, tuned_by="study-own-tau"),
 )
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import multiprocessing
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor, ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,6 +20,7 @@ import numpy as np
 
 from ..driving import advised
 from ..experiments.arms import PAPER_STEPS, Arm
+from ..experiments.diagnosis import ready
 from ..experiments.plan import SEED
 from ..experiments.problem import Problem, target_tasks
 from ..experiments.results import Results, load_results, save_results
@@ -34,8 +36,19 @@ from ..experiments.surgery import (
     shuffle_actions,
     shuffle_states,
 )
-from .study import TAU, make_guides
+from .buildings import draw_building
+from .catalogue import TAU, make_guides
 
+#: What is asked of drawn buildings, where every run has its own.
+MAIN = (
+    "nd",
+    "prob",
+    "half",
+    "eager",
+    "wanderer",
+    "nd-erased",
+    "prob-grafted",
+)
 #: The robots that are advised, and the advice of each, by its name in the study.
 ROBOTS = {
     "nd": "beta-0",
@@ -143,8 +156,12 @@ class Case(NamedTuple):
     run: int
 
 
-def operate(case: Case) -> tuple[np.ndarray, np.ndarray]:
-    """Return goals after tau, and share of states noted at tau, by operation."""
+def operate(case: Case) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """
+    Return goals after tau and share of states noted at tau, by operation.
+
+    And how ready the notes of the robots are that were not operated on.
+    """
     tasks, problem = target_tasks(case.problem), case.problem
     advised_by, alone = (
         np.random.SeedSequence(case.seed, spawn_key=(stream, case.run))
@@ -165,32 +182,41 @@ def operate(case: Case) -> tuple[np.ndarray, np.ndarray]:
         max_episode=problem.max_episode,
         think=think,
     )
-    way, goals, share = ~tasks.mdp.terminal, [], []
-    for name in case.operations:
-        # By name: no operation depends on which others there are.
-        luck = np.random.default_rng([case.seed, case.run, *name.encode()])
-        notes = OPERATIONS[name](left._replace(rng=luck))
-        share.append(noted(notes)[way].mean())
-        goals.append(
-            go_on(
-                tasks.mdp,
-                notes,
-                case.n_steps - case.tau,
-                seed=alone,
-                alpha=problem.alpha,
-                epsilon=problem.epsilon,
-                gamma=problem.gamma,
-                max_episode=problem.max_episode,
+    tables = [
+        # Luck by name: no operation depends on which others there are.
+        OPERATIONS[name](
+            left._replace(
+                rng=np.random.default_rng([case.seed, case.run, *name.encode()])
             )
         )
-    return np.array(goals), np.array(share)
+        for name in case.operations
+    ]
+    goals = go_on(
+        tasks.mdp,
+        tables,
+        case.n_steps - case.tau,
+        seed=alone,
+        alpha=problem.alpha,
+        epsilon=problem.epsilon,
+        gamma=problem.gamma,
+        max_episode=problem.max_episode,
+    )
+    way = ~tasks.mdp.terminal
+    share = [noted(notes)[way].mean() for notes in tables]
+    able = [
+        ready(tasks.mdp, notes, epsilon=problem.epsilon)
+        for name, notes in zip(case.operations, tables, strict=True)
+        if name in ROBOTS
+    ]
+    return np.array(goals), np.array(share), np.array(able)
 
 
 def run_operations(
     problem: Problem | None = None,
     *,
     operations: Iterable[str] = tuple(OPERATIONS),
-    n_runs: int = 20,
+    n_runs: int = 12,
+    drawn: bool = False,
     tau: int = TAU["hard"],
     n_steps: int = PAPER_STEPS,
     seed: int = SEED,
@@ -202,8 +228,10 @@ def run_operations(
     """
     Return the goals after tau of every operation, (operations, N, 1).
 
-    `out` is a folder to store in; results that are there already are read.
-    ``record["noted"]`` holds the share of states noted at tau, by operation.
+    With `drawn`, run i has a building of its own, that of seed i.  `out` is a
+    folder to store in; results that are there already are read.  The record holds,
+    by operation, what it was at tau in each run: ``noted``, the share of states
+    with a note, and ``ready``, for robots that were not operated on.
 
     Raises
     ------
@@ -227,6 +255,8 @@ def run_operations(
         "seed": seed,
         "stream": "surgery",
     }
+    if drawn:
+        parameters["reading"]["target"] = "drawn by the number of the run"
     if out and (Path(out) / "experiment.json").is_file():
         stored = load_results(out)
         if stored.record["parameters"] != parameters:
@@ -235,7 +265,15 @@ def run_operations(
     advice = make_guides(ROBOTS.values(), problem)
     guides = {robot: advice[name] for robot, name in ROBOTS.items()}
     cases = [
-        Case(problem, guides, operations, tau, n_steps, seed, run)
+        Case(
+            replace(problem, target=draw_building(run)) if drawn else problem,
+            guides,
+            operations,
+            tau,
+            n_steps,
+            seed,
+            run,
+        )
         for run in range(n_runs)
     ]
     found = []
@@ -251,12 +289,12 @@ def run_operations(
     finally:
         if own:
             pool.shutdown(cancel_futures=True)
-    goals, share = (np.stack(x, axis=1) for x in zip(*found, strict=True))
+    goals, share, able = (np.stack(x, axis=1) for x in zip(*found, strict=True))
+    robots = [name for name in operations if name in ROBOTS]
     record = {
         "parameters": parameters,
-        "noted": dict(
-            zip(operations, share.mean(axis=1).round(4).tolist(), strict=True)
-        ),
+        "noted": dict(zip(operations, share.round(4).tolist(), strict=True)),
+        "ready": dict(zip(robots, able.round(4).tolist(), strict=True)),
     }
     results = Results(
         tuple(Arm(name, None, "hard", tau) for name in operations),

@@ -136,11 +136,11 @@ def test_after_the_advice_a_run_depends_on_its_notes_alone(tasks, eager):
     """Who left them does not matter; the same notes and luck give the same goals."""
     left = leave(tasks.mdp, tasks.available, {"eager": eager}, 20_000, seed=5)
     copy = graft(np.zeros_like(left.best), left.notes["eager"], noted(left.best))
-    goals = [
-        go_on(tasks.mdp, notes, 30_000, seed=8) for notes in (left.notes["eager"], copy)
-    ]
+    tables = [left.notes["eager"], copy, 0 * copy]
+    goals = go_on(tasks.mdp, tables, 30_000, seed=8)
 
-    assert goals[0] == goals[1] > go_on(tasks.mdp, 0 * copy, 30_000, seed=8)
+    assert goals[0] == goals[1] > goals[2]
+    assert go_on(tasks.mdp, tables[:1], 30_000, seed=8) == goals[:1]  # no company
 
 
 # What the surgeon measures

@@ -518,3 +518,16 @@ def test_the_first_call_says_that_it_compiles(tmp_path):
 
     assert stderr().count("compiling the learning loops") == 1
     assert stderr() == ""
+
+
+def test_runs_that_start_from_tables_of_their_own_are_those_of_q0():
+    mdp = navigation_tasks(read_map("source"), reward="goal").mdp
+    tables = [np.full((mdp.n_states, mdp.n_actions), x) for x in (0.0, 1e-3, 0.5, 1.0)]
+    together = q_learning_runs(mdp, 9_000, rngs=[4] * 4, q0s=tables)
+
+    for table, run in zip(tables, together, strict=True):
+        alone = q_learning(mdp, 9_000, rng=4, q0=table)
+        np.testing.assert_array_equal(run.q, alone.q)
+        assert run.goals.tolist() == alone.goals.tolist()
+    with pytest.raises(ValueError, match="one table a run, 4, got 1"):
+        q_learning_runs(mdp, 10, rngs=[4] * 4, q0s=tables[:1])

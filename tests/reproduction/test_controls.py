@@ -9,6 +9,7 @@ from abstransfer import navigation_tasks, read_map
 from abstransfer.experiments.arms import ARMS, TAUS, Scale
 from abstransfer.experiments.problem import Problem, target_tasks
 from abstransfer.reproduction.buildings import draw_building
+from abstransfer.reproduction.catalogue import make_guides
 from abstransfer.reproduction.controls import (
     CONTROLS,
     FINE,
@@ -17,7 +18,6 @@ from abstransfer.reproduction.controls import (
     trap_guides,
     trap_views,
 )
-from abstransfer.reproduction.study import make_guides
 
 SMALL = Scale(30_000, 10_000)
 

@@ -9,7 +9,7 @@ from abstransfer import read_map
 from abstransfer.experiments.problem import Problem
 from abstransfer.experiments.results import load_results
 from abstransfer.experiments.surgery import Left, noted
-from abstransfer.reproduction.interventions import OPERATIONS, run_operations
+from abstransfer.reproduction.interventions import MAIN, OPERATIONS, run_operations
 
 PROBLEM = Problem(target=read_map("source"))
 FEW = ("nd", "blank", "nd-erased", "wanderer-digested")
@@ -83,7 +83,8 @@ def test_operations_are_stored_and_read_again_and_do_not_depend_on_workers(tmp_p
     np.testing.assert_array_equal(first.goals, again.goals)
     np.testing.assert_array_equal(load_results(tmp_path).goals, first.goals)
     assert run_operations(PROBLEM, out=tmp_path, **options).record == first.record
-    assert first.record["noted"]["blank"] == 0
+    assert first.record["noted"]["blank"] == [0, 0]
+    assert list(first.record["ready"]) == ["nd"]
     with pytest.raises(ValueError, match="holds another experiment"):
         run_operations(PROBLEM, out=tmp_path, **options | {"tau": 5_000})
 
@@ -97,6 +98,22 @@ def test_an_operation_does_not_depend_on_which_others_there_are():
         )
 
     np.testing.assert_array_equal(alone.goals[0], both.goals[1])
+
+
+def test_in_drawn_buildings_every_run_has_its_own(tmp_path):
+    with ThreadPoolExecutor(1) as pool:
+        results = run_operations(
+            operations=MAIN[:2],
+            n_runs=2,
+            drawn=True,
+            tau=2_000,
+            n_steps=6_000,
+            executor=pool,
+            out=tmp_path,
+        )
+
+    assert results.goals.shape == (2, 2, 1)
+    assert "drawn" in load_results(tmp_path).record["parameters"]["reading"]["target"]
 
 
 def test_what_cannot_be_operated_on_is_refused():
