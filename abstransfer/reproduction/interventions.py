@@ -37,7 +37,7 @@ from ..experiments.surgery import (
     shuffle_states,
 )
 from .buildings import draw_building
-from .catalogue import TAU, make_guides
+from .catalogue import HINT, TAU, make_guides
 
 #: What is asked of drawn buildings, where every run has its own.
 MAIN = (
@@ -58,7 +58,6 @@ ROBOTS = {
     "wanderer": "all",
 }
 ADVISED, ALONE = 2, 3  # streams of seeds: none of those that report or tune
-TINY = 1e-12
 
 
 def _only_nd(left: Left) -> np.ndarray:
@@ -121,7 +120,7 @@ OPERATIONS: dict[str, Callable[[Left], np.ndarray]] = {
     "half-thinned": lambda left: _thinned(left, "half", "nd"),
     "half-on-nd": lambda left: _kept(left.notes["half"], noted(left.notes["nd"])),
     "nd-large": lambda left: _kept(
-        left.notes["nd"], left.notes["nd"].max(axis=1) >= TINY
+        left.notes["nd"], left.notes["nd"].max(axis=1) >= HINT.hint
     ),
     "prob-near": lambda left: _third(left, 0),
     "prob-middle": lambda left: _third(left, 1),

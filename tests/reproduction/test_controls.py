@@ -9,15 +9,14 @@ from abstransfer import navigation_tasks, read_map
 from abstransfer.experiments.arms import ARMS, TAUS, Scale
 from abstransfer.experiments.problem import Problem, target_tasks
 from abstransfer.reproduction.buildings import draw_building
-from abstransfer.reproduction.catalogue import make_guides
-from abstransfer.reproduction.controls import (
-    CONTROLS,
+from abstransfer.reproduction.catalogue import (
+    EXPERIMENTS,
     FINE,
-    TARGETS,
-    run_controls,
-    trap_guides,
-    trap_views,
+    PLANNED,
+    make_guides,
+    reproduce,
 )
+from abstransfer.reproduction.traps import trap_views
 
 SMALL = Scale(30_000, 10_000)
 
@@ -25,15 +24,6 @@ SMALL = Scale(30_000, 10_000)
 @pytest.fixture(scope="module")
 def prob():
     return make_guides(["beta-1"])["beta-1"]
-
-
-def test_folders_are_named_once_and_grids_come_before_who_reads_them():
-    folders = [control.folder for control in CONTROLS]
-
-    assert len(folders) == len(set(folders))
-    for i, control in enumerate(CONTROLS):
-        assert control.tuned_by is None or control.tuned_by in folders[:i]
-        assert control.target in TARGETS
 
 
 def test_the_fine_grid_has_no_point_of_the_first():
@@ -51,30 +41,28 @@ def test_traps_are_the_fewest_views_that_hold_nine_tenths_of_the_late():
 
 
 def test_exchanged_rows_are_the_others_in_the_traps_and_its_own_elsewhere(prob):
-    problem = Problem()
-    traps, guides = trap_views(problem, prob), trap_guides(problem)
-    mixed = guides["prob-nd-in-traps"]
+    traps = trap_views(Problem(), prob)
+    names = ("beta-0", "beta-1", "prob-nd-in-traps", "nd-prob-in-traps")
+    nd, prob, mixed, other = make_guides(names).values()
 
-    np.testing.assert_array_equal(mixed[traps], guides["nd"][traps])
-    np.testing.assert_array_equal(mixed[~traps], guides["prob"][~traps])
-    np.testing.assert_array_equal(
-        mixed + guides["nd-prob-in-traps"], guides["nd"] + guides["prob"]
-    )
-    np.testing.assert_array_equal(guides["prob"], prob)
+    np.testing.assert_array_equal(mixed[traps], nd[traps])
+    np.testing.assert_array_equal(mixed[~traps], prob[~traps])
+    np.testing.assert_array_equal(mixed + other, nd + prob)
 
 
 def test_controls_of_all_kinds_run_and_a_tuned_one_reads_its_grid(tmp_path):
     folders = ("controls-target", "compass-target-tau", "compass-target-tuned")
+    chosen = [one for one in (*EXPERIMENTS, *PLANNED) if one.folder in folders]
     with ThreadPoolExecutor(2) as pool:
-        found = run_controls(tmp_path, folders, scale=SMALL, n_runs=1, executor=pool)
+        found = reproduce(
+            tmp_path, experiments=chosen, scale=SMALL, n_runs=1, executor=pool
+        )
 
     hint = found["controls-target"].arms[0]
     assert hint.hint == 1e-12
     tuned = found["compass-target-tuned"].arms
     assert [arm.name for arm in tuned] == [arm.name for arm in ARMS]
     assert {arm.tau for arm in tuned[1:]} <= set(TAUS[:8])
-    with pytest.raises(ValueError, match="folders must be among"):
-        run_controls(tmp_path, ["nowhere"])
 
 
 @pytest.mark.parametrize("seed", range(3))
