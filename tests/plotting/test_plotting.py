@@ -1,8 +1,6 @@
 """Figures: legible, described from their data, and the same bytes every time."""
 
 import re
-import subprocess
-import sys
 from xml.etree import ElementTree
 
 import numpy as np

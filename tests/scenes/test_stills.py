@@ -22,6 +22,7 @@ from abstransfer.scenes.parts.svg import (
     mark,
     paint,
     path,
+    picture,
     text,
 )
 
