@@ -18,6 +18,7 @@ from scipy import stats
 
 LEVEL = 0.95
 RESAMPLES = 2000
+FEWEST = 5  # runs for an interval: fewer hardly know how much they vary
 BATCH = 250  # resamples held in memory at a time: 6 MB for 50 runs x 60 windows
 
 
@@ -91,6 +92,55 @@ def bootstrap(
                 random_state=np.random.default_rng(rng),
             ).confidence_interval
     return Interval(*(x if x.ndim else float(x) for x in (estimate, low, high)))
+
+
+def t_interval(x: np.ndarray, *, level: float = LEVEL) -> Interval:
+    """
+    Return the mean over runs of x (N,) or (N, B), with Student's interval.
+
+    It holds its level for few runs, as the percentile bootstrap does not (of six
+    runs that holds the mean 86 times in 100, not 95); nan under `FEWEST` runs.
+    x may be a contrast, run by run: a difference, or a sum with weights.
+
+    References
+    ----------
+    Student (1908), The probable error of a mean.
+
+    >>> found = t_interval(np.array([1.0, 2.0, 3.0, 4.0, 5.0]))
+    >>> [round(end, 3) for end in found]  # 3 +- 2.776 x 1.581 / 5^.5
+    [3.0, 1.037, 4.963]
+    >>> t_interval(np.array([1.0, 2.0]))
+    Interval(estimate=1.5, low=nan, high=nan)
+    """
+    x = np.asarray(x, dtype=float)
+    if not x.size or not np.isfinite(x).all():
+        raise ValueError("x must hold finite numbers, at least one")
+    mean, n = x.mean(axis=0), len(x)
+    half = np.full_like(mean, np.nan)
+    if n >= FEWEST:
+        half = stats.t.ppf((1 + level) / 2, n - 1) * x.std(axis=0, ddof=1) / n**0.5
+    ends = (mean, mean - half, mean + half)
+    return Interval(*(float(end) if np.ndim(end) == 0 else end for end in ends))
+
+
+def gain_interval(a: np.ndarray, b: np.ndarray, *, level: float = LEVEL) -> Interval:
+    """
+    Return mean(a) / mean(b) - 1, run i of a with run i of b, both (N,), positive.
+
+    Student's interval of the log of the ratio: a run moves it by its share of its
+    own mean, less that of its partner.
+
+    >>> gain = gain_interval(np.array([6.0] * 5), np.array([5.0] * 5))
+    >>> [round(x, 6) for x in gain]
+    [0.2, 0.2, 0.2]
+    """
+    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    if a.shape != b.shape or a.ndim != 1:
+        raise ValueError(f"a and b must have one shape (N,), got {a.shape}, {b.shape}")
+    if not (a.mean() > 0 and b.mean() > 0):
+        return Interval(np.nan, np.nan, np.nan)
+    log = np.log(a.mean() / b.mean()) + a / a.mean() - b / b.mean()
+    return Interval(*(float(np.expm1(end)) for end in t_interval(log, level=level)))
 
 
 def mean_interval(x: np.ndarray, *, rng, level: float = LEVEL) -> Interval:
