@@ -122,19 +122,3 @@ def make_jobs(plan: Plan, done: np.ndarray) -> Iterator[tuple[tuple[int, int], J
                         arm.hint,
                     ),
                 )
-
-
-def differences(there, here, name="parameters") -> Iterator[str]:
-    """Yield where two records differ, by name."""
-    if isinstance(there, dict) and isinstance(here, dict):
-        for key in here | there:
-            yield from differences(there.get(key), here.get(key), f"{name}.{key}")
-    elif isinstance(there, list) and isinstance(here, list) and len(there) == len(here):
-        for i, pair in enumerate(zip(there, here, strict=True)):
-            yield from differences(*pair, f"{name}[{i}]")
-    elif there != here:
-        yield f"{name} is {_short(there)} there and {_short(here)} here"
-
-
-def _short(value) -> str:
-    return f"a list of {len(value)}" if isinstance(value, list) else repr(value)

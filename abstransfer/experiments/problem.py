@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
-from functools import lru_cache, partial
+from functools import cache, lru_cache, partial
 
 import numpy as np
 
@@ -160,6 +160,12 @@ def digest(data: bytes) -> str:
 
 def _map_record(map_: Map) -> dict:
     """Return the name of a map that comes with the package, and a fingerprint."""
-    shipped = (path.stem for path in sorted((DATA / "maps").glob("*.txt")))
-    name = next((name for name in shipped if read_map(name) == map_), "own map")
+    name = _shipped().get(map_, "own map")
     return {"name": name, "sha256": digest(str(map_).encode())}
+
+
+@cache
+def _shipped() -> dict[Map, str]:
+    """Return the names of the maps that come with the package."""
+    names = sorted(path.stem for path in (DATA / "maps").glob("*.txt"))
+    return {read_map(name): name for name in names}

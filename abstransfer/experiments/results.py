@@ -1,21 +1,20 @@
 """
-Results on disk: a table, the record of what made it, and parts on the way.
+Finished results: a table, and the record of what made it.
 
 A folder holds ``goals.csv.gz`` (arm, tau, run, window, goals; byte-stable) and
-``experiment.json``.  While an experiment runs, ``parts/`` holds what is done.
-Every file is written under another name first and then put in its place, so a
-kill at any moment leaves whole files only.
+``experiment.json``, which has the sha256 of the table and of itself.  What does
+not fit is refused by its name.  ``store`` fills such folders.
 """
 
 from __future__ import annotations
 
 import gzip
+import hashlib
 import io
 import json
 import os
-import re
-import shutil
 from collections.abc import Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,7 +23,7 @@ import numpy as np
 from .._paths import DATA
 from .arms import Arm
 
-TABLE, RECORD, PARTS = "goals.csv.gz", "experiment.json", "parts"
+TABLE, RECORD, UNFINISHED = "goals.csv.gz", "experiment.json", "unfinished.jsonl"
 HEADER = "arm,tau,run,window,goals"
 
 
@@ -56,14 +55,6 @@ class Results(NamedTuple):
         return self.curves(name, tau).sum(axis=1)
 
 
-def save_results(folder: str | Path, results: Results) -> None:
-    """Write table and record into a folder, which is made if need be."""
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    _write(folder / TABLE, _table(results))
-    write_record(folder, results.record)
-
-
 def load_results(folder: str | Path) -> Results:
     """
     Return the results in a folder.
@@ -73,28 +64,26 @@ def load_results(folder: str | Path) -> Results:
     FileNotFoundError
         If there are none, or the experiment has not finished.
     ValueError
-        If the table is not the one that the record speaks of.
+        If table or record are not as they were written, or not one experiment's.
     """
     folder = Path(folder)
-    record = read_record(folder)
+    if (folder / UNFINISHED).exists():
+        raise FileNotFoundError(f"{folder}: the experiment has not finished; resume it")
+    record, path = read_record(folder), folder / TABLE
     if record is None:
         raise FileNotFoundError(f"{folder}: no results here ({RECORD} is missing)")
-    if not (folder / TABLE).is_file():
-        raise FileNotFoundError(f"{folder}: the experiment has not finished; resume it")
-    parameters = record["parameters"]
-    arms = tuple(
-        Arm(**{f: a[f] for f in Arm._fields if f in a}) for a in parameters["arms"]
-    )
-    n_windows = parameters["steps"] // parameters["window"]
-    shape = len(arms), parameters["runs"], n_windows
-    with gzip.open(folder / TABLE, "rt", encoding="ascii") as file:
-        lines = file.read().split("\n")
-    keys = _keys(arms, shape)
-    rows = [line.rpartition(",") for line in lines[1:-1]]
-    if lines[0] != HEADER or [key for key, _, _ in rows] != keys:
-        raise ValueError(f"{folder / TABLE}: not the table that {RECORD} speaks of")
-    goals = np.array([int(value) for _, _, value in rows]).reshape(shape)
-    return Results(arms, goals, record)
+    if not path.exists():
+        raise ValueError(f"{path}: missing, though {RECORD} speaks of it")
+    table = path.read_bytes()
+    if _sha256(table) != record["sha256"][TABLE]:
+        raise ValueError(
+            f"{path}: not the table that {RECORD} speaks of, by its sha256"
+        )
+    try:
+        return _parse(table, record)
+    except (ArithmeticError, LookupError, TypeError, ValueError, EOFError, OSError):
+        message = f"{path}: not a table of goals as {RECORD} describes it"
+        raise ValueError(message) from None
 
 
 def read_results(name: str) -> Results:
@@ -120,84 +109,93 @@ def stored_results() -> tuple[str, ...]:
     return tuple(path.parent.name for path in tables)
 
 
+def save_results(folder: str | Path, results: Results) -> None:
+    """Write table and record into a folder, which is made if need be."""
+    folder, table = Path(folder), _table(results)
+    folder.mkdir(parents=True, exist_ok=True)
+    record = {k: v for k, v in results.record.items() if k != "sha256"}
+    record["sha256"] = {TABLE: _sha256(table), RECORD: _sha256(_canonical(record))}
+    _write(folder / TABLE, table)
+    _write(folder / RECORD, (json.dumps(record, indent=1) + "\n").encode())
+
+
 def read_record(folder: Path) -> dict | None:
-    """Return the record of a folder, None if it has none."""
+    """Return the record of a folder, None if it has none; refuse a damaged one."""
+    path = Path(folder) / RECORD
     try:
-        return json.loads((Path(folder) / RECORD).read_text(encoding="utf-8"))
+        record = json.loads(path.read_bytes())
     except FileNotFoundError:
         return None
-    except ValueError as error:
-        raise ValueError(f"{Path(folder) / RECORD}: not JSON ({error})") from None
+    except (ValueError, RecursionError):
+        raise ValueError(f"{path}: damaged, it is not JSON") from None
+    sums = record.get("sha256") if isinstance(record, dict) else None
+    if not isinstance(sums, dict) or not {TABLE, RECORD} <= set(sums):
+        raise ValueError(f"{path}: not the record of a finished experiment (no sha256)")
+    plain = {k: v for k, v in record.items() if k != "sha256"}
+    if sums[RECORD] != _sha256(_canonical(plain)):
+        raise ValueError(f"{path}: damaged or edited, by its sha256")
+    return record
 
 
-def write_record(folder: Path, record: Mapping) -> None:
-    """Write the record of a folder, which is made if need be."""
-    Path(folder).mkdir(parents=True, exist_ok=True)
-    _write(Path(folder) / RECORD, (json.dumps(record, indent=1) + "\n").encode())
+@contextmanager
+def naming(path: Path):
+    """Give errors of the system the name of the file that they speak of."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
-def save_part(folder: Path, arm: int, run: int, goals: np.ndarray, seconds: float):
-    """Store goals (n, B) of runs run..run+n-1 of an arm, and the seconds they took."""
-    (Path(folder) / PARTS).mkdir(exist_ok=True)
-    buffer = io.BytesIO()
-    np.savez(buffer, goals=goals, seconds=seconds)
-    name = f"{arm:03d}-{run:04d}-{len(goals):04d}.npz"
-    _write(Path(folder) / PARTS / name, buffer.getvalue())
-
-
-def load_parts(folder: Path, goals: np.ndarray) -> tuple[np.ndarray, float]:
-    """
-    Fill goals (arms, N, B) with the parts there are.
-
-    Returns which runs are done, (arms, N) bool, and the seconds they took.
-    """
-    done, total = np.zeros(goals.shape[:2], dtype=bool), 0.0
-    for path in sorted((Path(folder) / PARTS).glob("*.npz")):
-        if re.fullmatch(r"\d{3}-\d{4,}-\d{4,}", path.stem):
-            arm, run, n = map(int, path.stem.split("-"))
-            with np.load(path) as part:
-                goals[arm, run : run + n] = part["goals"]
-                total += float(part["seconds"])
-            done[arm, run : run + n] = True
-    return done, total
-
-
-def remove_parts(folder: Path) -> None:
-    """Remove the parts, once the table holds them."""
-    shutil.rmtree(Path(folder) / PARTS, ignore_errors=True)
+def _parse(table: bytes, record: Mapping) -> Results:
+    """Return the results that a table holds; raise if it is not just as written."""
+    parameters = record["parameters"]
+    arms = tuple(
+        Arm(**{f: a[f] for f in Arm._fields if f in a}) for a in parameters["arms"]
+    )
+    n_windows = parameters["steps"] // parameters["window"]
+    shape = len(arms), parameters["runs"], n_windows
+    # A small file can unpack to a very large one: read no more than there may be.
+    largest = _text(arms, np.broadcast_to(parameters["window"], shape))
+    with gzip.open(io.BytesIO(table)) as file:
+        text = file.read(len(largest) + 1).decode("ascii")
+    values = [int(line.rpartition(",")[2]) for line in text.split("\n")[1:-1]]
+    goals = np.array(values, dtype=np.int64).reshape(shape)
+    if goals.min() < 0 or goals.max() > parameters["window"]:
+        raise ValueError("more goals than steps, or fewer than none")
+    if text != _text(arms, goals):
+        raise ValueError("rows are not those of the experiment, one after another")
+    return Results(arms, goals, dict(record))
 
 
 def _table(results: Results) -> bytes:
     """Return the compressed table: the same bytes for the same goals."""
-    keys = _keys(results.arms, results.goals.shape)
-    values = results.goals.ravel().tolist()
-    rows = [f"{key},{value}" for key, value in zip(keys, values, strict=True)]
-    text = "\n".join([HEADER, *rows, ""])
     buffer = io.BytesIO()
     with gzip.GzipFile("", "wb", compresslevel=9, fileobj=buffer, mtime=0) as file:
-        file.write(text.encode("ascii"))
+        file.write(_text(results.arms, results.goals).encode("ascii"))
     return buffer.getvalue()
 
 
-def _keys(arms, shape) -> list[str]:
-    """Return all columns but the last, for each row of the table."""
-    _, n_runs, n_windows = shape
-    return [
-        f"{arm.name},{arm.tau},{run},{window}"
-        for arm in arms
-        for run in range(n_runs)
-        for window in range(n_windows)
-    ]
+def _text(arms, goals: np.ndarray) -> str:
+    """Return the table as text: a row for each arm, run and window."""
+    lines = [HEADER]
+    for arm, runs in zip(arms, goals.tolist(), strict=True):
+        for run, windows in enumerate(runs):
+            row = f"{arm.name},{arm.tau},{run}"
+            lines += [f"{row},{window},{n}" for window, n in enumerate(windows)]
+    return "\n".join([*lines, ""])
+
+
+def _canonical(record: Mapping) -> bytes:
+    return json.dumps(record, sort_keys=True).encode()
+
+
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Put data into a file: all of it, or nothing."""
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with open(draft, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(draft, path)
-    finally:
-        draft.unlink(missing_ok=True)
+    """Write a file, down to the disk."""
+    with naming(path), open(path, "wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())

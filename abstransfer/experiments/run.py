@@ -20,19 +20,10 @@ import numpy as np
 
 from ..driving import executed_values
 from .arms import ARMS, Arm, Scale
-from .plan import SEED, Plan, differences, make_jobs, make_plan, parameters
+from .plan import SEED, Plan, make_jobs, make_plan, parameters
 from .problem import Problem, driving_tasks
-from .results import (
-    TABLE,
-    Results,
-    load_parts,
-    load_results,
-    read_record,
-    remove_parts,
-    save_part,
-    save_results,
-    write_record,
-)
+from .results import Results, load_results
+from .store import Store, claim
 from .workers import run_jobs
 
 
@@ -87,7 +78,10 @@ def run_experiment(
     Raises
     ------
     ValueError
-        If an argument is bad, or `out` holds another experiment; named.
+        If an argument is bad, or `out` holds another experiment, or what is not
+        whole; named.
+    BlockingIOError
+        If another process works in `out`.
     ChildProcessError
         If a worker died.
     """
@@ -96,49 +90,29 @@ def run_experiment(
     )
     if n_workers is not None and n_workers < 1:
         raise ValueError(f"n_workers must be at least 1, got {n_workers}")
-    folder = None if out is None else Path(out)
-    if folder and _open(folder, plan):
-        return load_results(folder)
+    if out is None:
+        store = Store(plan.shape)
+    else:
+        store = claim(out, parameters(plan), plan.shape)
+        if store is None:  # it has finished
+            return load_results(out)
+    with store:
+        resumed, began = store.done.any(), time.perf_counter()
 
-    goals = np.zeros(plan.shape, dtype=np.int64)
-    done, seconds = np.zeros(plan.shape[:2], dtype=bool), [0.0]
-    if folder:
-        done, seconds[0] = load_parts(folder, goals)
-    resumed, began = done.any(), time.perf_counter()
-    on_progress = on_progress or (lambda done, total: None)
-    on_progress(int(done.sum()) * plan.scale.steps, plan.n_steps)
+        def tell():
+            if on_progress:
+                on_progress(int(store.done.sum()) * plan.scale.steps, plan.n_steps)
 
-    def keep(key, part, spent):
-        arm, run = key
-        if folder:
-            save_part(folder, arm, run, part, spent)
-        goals[arm, run : run + len(part)] = part
-        done[arm, run : run + len(part)] = True
-        seconds.append(spent)
-        on_progress(int(done.sum()) * plan.scale.steps, plan.n_steps)
+        def keep(key, goals, seconds):
+            store.save(*key, goals, seconds)
+            tell()
 
-    run_jobs(dict(make_jobs(plan, done)), executor, n_workers, keep)
-    wall = None if resumed else time.perf_counter() - began
-    results = Results(plan.arms, goals, _record(plan, sum(seconds), wall))
-    if folder:
-        save_results(folder, results)
-        remove_parts(folder)
+        tell()
+        run_jobs(dict(make_jobs(plan, store.done)), executor, n_workers, keep)
+        wall = None if resumed else time.perf_counter() - began
+        results = Results(plan.arms, store.goals, _record(plan, store.seconds, wall))
+        store.finish(results)
     return results
-
-
-def _open(folder: Path, plan: Plan) -> bool:
-    """Claim a folder for a plan; return whether its results are there already."""
-    record, wanted = read_record(folder), parameters(plan)
-    if record is None:
-        write_record(folder, {"parameters": wanted})
-        return False
-    found = list(differences(record.get("parameters", {}), wanted))
-    if found:
-        raise ValueError(
-            f"{folder} holds another experiment, so nothing was run; "
-            + "; ".join(found[:3])
-        )
-    return (folder / TABLE).is_file()
 
 
 def _record(plan: Plan, seconds: float, wall: float | None) -> dict:

@@ -35,9 +35,15 @@ def start(*arguments):
     )
 
 
+def lines(folder):
+    """What is stored of an unfinished experiment; the first line is no part."""
+    path = folder / "unfinished.jsonl"
+    return path.read_bytes().splitlines() if path.exists() else []
+
+
 def wait_for_parts(process, folder, n=3):
     """Wait until some jobs are done, and others not."""
-    while len(list(folder.glob("parts/*.npz"))) < n:
+    while len(lines(folder)) < 1 + n:
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
 
@@ -215,14 +221,10 @@ def test_killed_and_resumed_equals_uninterrupted_to_the_byte(
     process.wait()
     wait_for_the_end_of(process.pid)
     process.communicate()
-    done = {path.name: path.stat().st_mtime_ns for path in tmp_path.glob("parts/*.npz")}
-
-    assert done
-    assert not (tmp_path / "goals.csv.gz").exists(), "it ended before it was killed"
-    kept = {name: (tmp_path / "parts" / name).read_bytes() for name in done}
-    assert main(command) == 0
-    assert kept.keys() == done.keys()
     table = "goals.csv.gz"
+
+    assert not (tmp_path / table).exists(), "it ended before it was killed"
+    assert main(command) == 0
     assert (tmp_path / table).read_bytes() == (uninterrupted / table).read_bytes()
     assert sorted(os.listdir(tmp_path)) == ["experiment.json", table]
     assert load_results(tmp_path).record["seconds"]["wall"] is None, "nothing was kept"

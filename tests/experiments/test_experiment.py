@@ -22,13 +22,9 @@ from abstransfer.experiments.problem import (
     driving_tasks,
     target_tasks,
 )
-from abstransfer.experiments.results import (
-    Results,
-    load_results,
-    save_part,
-    save_results,
-)
+from abstransfer.experiments.results import Results, load_results, save_results
 from abstransfer.experiments.run import run_experiment
+from abstransfer.experiments.store import claim
 from abstransfer.learning import q_learning
 from abstransfer.policies import restrict_policy
 
@@ -211,19 +207,14 @@ def test_a_finished_experiment_is_read_not_run(tmp_path, expected):
 
 def test_only_missing_runs_are_made(tmp_path, expected):
     """A part with impossible goals stays: its runs were not repeated."""
-    plan = make_plan(THREE, PROBLEM, SMALL, N_RUNS)
-    folder = tmp_path / "a"
-    folder.mkdir()
-    (folder / "experiment.json").write_text(
-        json.dumps({"parameters": parameters(plan)})
-    )
-    save_part(folder, 1, 3, np.full((2, 3), 99_999), 1.0)
-    (folder / "parts" / ".001-0000-0003.npz.77").write_bytes(b"half a fi")
+    plan, folder = make_plan(THREE, PROBLEM, SMALL, N_RUNS), tmp_path / "a"
+    with claim(folder, parameters(plan), plan.shape) as store:
+        store.save(1, 3, np.full((2, 3), 9_999), 1.0)
     told = []
     found = run(out=folder, on_progress=lambda done, total: told.append(done))
 
     assert told[0] == 2 * SMALL.steps
-    assert (found.goals[1, 3:5] == 99_999).all()
+    assert (found.goals[1, 3:5] == 9_999).all()
     found.goals[1, 3:5] = expected.goals[1, 3:5]
     np.testing.assert_array_equal(found.goals, expected.goals)
 
@@ -306,17 +297,44 @@ def test_a_bad_reading_is_refused_by_name(name, value):
 def test_an_unfinished_folder_cannot_be_loaded(tmp_path):
     with pytest.raises(FileNotFoundError, match="no results here"):
         load_results(tmp_path)
-    (tmp_path / "experiment.json").write_text('{"parameters": {}}')
+    plan = make_plan(THREE, PROBLEM, SMALL, N_RUNS)
+    with claim(tmp_path, parameters(plan), plan.shape):
+        pass
     with pytest.raises(FileNotFoundError, match="not finished"):
         load_results(tmp_path)
 
 
 def test_a_table_that_does_not_fit_its_record_is_refused(tmp_path, expected):
     record = {"parameters": parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS))}
-    swapped = Results(THREE[::-1], expected.goals, record)
-    save_results(tmp_path, swapped)
-    with pytest.raises(ValueError, match="not the table"):
-        load_results(tmp_path)
+    for other in (
+        Results(THREE[::-1], expected.goals, record),
+        Results(THREE, expected.goals - expected.goals.max() - 1, record),
+        Results(THREE, expected.goals + SMALL.window, record),
+        Results(THREE[:2], expected.goals[:2], record),
+    ):
+        save_results(tmp_path, other)
+        with pytest.raises(ValueError, match="goals.csv.gz: not a table of goals as"):
+            load_results(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("", "not JSON"),
+        ('{"parameters": ', "not JSON"),
+        ("[" * 100_000, "not JSON"),
+        ("[]", "no sha256"),
+        ("3", "no sha256"),
+        ("null", "no sha256"),
+        ('{"parameters": {}}', "no sha256"),
+        ('{"sha256": {"goals.csv.gz": "", "experiment.json": ""}}', "edited"),
+    ],
+)
+def test_a_record_that_is_none_is_refused_by_name(tmp_path, text, complaint):
+    (tmp_path / "experiment.json").write_text(text)
+    for read in (load_results, lambda folder: run(out=folder)):
+        with pytest.raises(ValueError, match=f"experiment.json: .*{complaint}"):
+            read(tmp_path)
 
 
 def test_the_nine_arms_have_the_papers_tau_and_the_grid_holds_them():

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from abstransfer.experiments import store
 from abstransfer.experiments.arms import ARMS, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
 from abstransfer.experiments.problem import Problem
@@ -56,8 +57,8 @@ def results(tmp_path_factory):
     save_results(folder / "goal", made_up(ARMS, 8, goal))
     save_results(folder / "cost", made_up(ARMS, 8, replace(goal, reward="cost")))
     save_results(folder / "grid", made_up(tau_cells(), 4, goal))
-    (folder / "unfinished").mkdir()
-    (folder / "unfinished" / "experiment.json").write_text('{"parameters": {}}')
+    with store.claim(folder / "unfinished", {}, (1, 1, 1)):
+        pass
     return folder
 
 
