@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
 
 FOLDER = Path(__file__).parent
@@ -47,8 +48,14 @@ def sources() -> list[Path]:
 
 def digest() -> str:
     """Return what changes with any source."""
+    return _digest(tuple((path, path.stat().st_mtime_ns) for path in sources()))
+
+
+@lru_cache(1)
+def _digest(seen: tuple[tuple[Path, int], ...]) -> str:
+    """Read the sources; not again while nobody has written them."""
     found = hashlib.sha256()
-    for path in sources():
+    for path, _ in seen:
         found.update(path.relative_to(FOLDER).as_posix().encode() + b"\0")
         found.update(hashlib.sha256(path.read_bytes()).digest())
     return found.hexdigest()

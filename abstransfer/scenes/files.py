@@ -13,7 +13,7 @@ from functools import cache
 
 from ..maps import read_map
 from ..plotting.style import PALETTE
-from .bundle import BUNDLES, COMMAND, FOLDER, BundleError, build, is_fresh
+from .bundle import BUNDLES, COMMAND, FOLDER, BundleError, build, digest, is_fresh
 
 SCENE = ".abstransfer-scene"
 LIGHT = SCENE
@@ -74,14 +74,19 @@ def style() -> str:
 
 def bundled(name: str) -> str:
     """Return the bundle of a scene, or of its workers; make it first if need be."""
-    if not is_fresh():
-        try:
-            build()
-        except (BundleError, OSError) as error:
-            raise BundleError(
-                f"the scenes must be bundled anew; run: {COMMAND} ({error})"
-            ) from error
+    if not is_fresh() and (problem := _problem(digest())):
+        raise BundleError(problem)
     return (BUNDLES / f"{name}.js").read_text("utf-8")
+
+
+@cache
+def _problem(_: str) -> str:
+    """Bundle sources of this digest, once; return what hindered it, or nothing."""
+    try:
+        build()
+    except (BundleError, OSError) as error:
+        return f"the scenes must be bundled anew; run: {COMMAND} ({error})"
+    return ""
 
 
 def said(**more) -> str:

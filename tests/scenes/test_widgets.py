@@ -80,6 +80,7 @@ def test_without_bundles_a_widget_says_what_to_do(monkeypatch):
         raise bundle.BundleError("there is no deno")
 
     monkeypatch.setattr(front, "is_fresh", lambda: False)
+    monkeypatch.setattr(front, "digest", lambda: "of sources without bundles")
     monkeypatch.setattr(front, "build", build)
 
     script = scenes.Race().get_state()["_esm"]
