@@ -87,27 +87,24 @@ def line_chart(
     if line is not None:
         ends = [place(line, value) for value in (y.low, y.high)]
         parts.append(path(through(ends), "ink", dash="4 3"))
-        parts.append(text(ends[1][0], upper - 4, note) if note else "")
+        parts.append(text(ends[1][0], upper - 4, note))
     named = [curve for curve in curves if curve.name]
-    heights = {
-        i: _apart([place(*curve.points[i])[1] for curve in named], upper)
-        for i in (0, -1)
-    }
-    for curve in curves:
+    firsts, lasts = (
+        _apart([place(*curve.points[i])[1] for curve in named], upper) for i in (0, -1)
+    )
+    for curve, first, last in zip(named, firsts, lasts, strict=True):
         look = look_of(curve.arm)
         dash = look.dash if curve.dash is None else curve.dash
-        places = [place(*point) for point in curve.points]
-        if curve.name:
-            n = named.index(curve)
-            first, last = heights[0][n] + 4, heights[-1][n] + 4
-            parts += [
-                path(through(places), look.color, 2, dash=dash),
-                text(left - 7, first, curve.start, "end", look.color),
-                text(end + 7, last, curve.name, color=look.color),
-            ]
-        filled = look.filled and bool(curve.name)
-        for middle in places[curve.marks - 1 :: curve.marks] if curve.marks else []:
-            parts.append(mark(curve.arm, *middle, filled=filled))
+        way = through(place(*point) for point in curve.points)
+        parts += [
+            path(way, look.color, 2, dash=dash),
+            text(left - 7, first + 4, curve.start, "end", look.color),
+            text(end + 7, last + 4, curve.name, color=look.color),
+        ]
+    for curve in curves:
+        filled = look_of(curve.arm).filled and bool(curve.name)
+        marked = curve.points[curve.marks - 1 :: curve.marks] if curve.marks else []
+        parts += [mark(curve.arm, *place(*at), filled=filled) for at in marked]
     return parts
 
 
