@@ -54,18 +54,17 @@ def _fails_at_equal(neighbors, goal, success, cell, direction, luck):
 
 
 def _four_cells(rng):
-    """Yield every step from the cells of a corridor and of a square, 3 x 2 lucks."""
+    """Yield each step from the cells of a corridor and of a square, with three lucks."""
     corridor = [[-1, 1, -1, -1], [-1, 2, -1, 0], [-1, 3, -1, 1], [-1, -1, -1, 2]]
     square = [[-1, 1, 2, -1], [-1, -1, 3, 0], [0, 3, -1, -1], [1, -1, -1, 2]]
     for neighbors, goal in ((corridor, 3), (square, 0), (square, 2)):
         for cell in set(range(4)) - {goal}:
             for direction in range(4):
-                for success in (0.5, 0.9):
-                    low = round(rng.uniform(0, success), 2)
-                    high = round(rng.uniform(success, 1), 2)
-                    for luck in (low, high, success):
-                        case = goal, success, cell, direction, luck
-                        yield np.array(neighbors), *case
+                for i in range(3):
+                    success = (0.5, 0.9)[(cell + i) % 2]
+                    low, high = rng.uniform(0, success), rng.uniform(success, 1)
+                    luck = (round(low, 2), round(high, 2), success)[i]
+                    yield np.array(neighbors), goal, success, cell, direction, luck
 
 
 EXERCISES = [
