@@ -1,6 +1,7 @@
 """What the hints and the solutions say runs on the page where they stand."""
 
 import ast
+import builtins
 import dis
 import inspect
 import json
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from support import ROOT
 
+import abstransfer as at
 from abstransfer.exercises import _check, all_exercises, check
 
 ALL = {exercise.key: exercise for exercise in all_exercises()}
@@ -180,3 +182,45 @@ def like(exercise, function):
     """Return a function that takes what the solution takes."""
     function.__signature__ = inspect.signature(exercise.solution)
     return function
+
+
+# ---- the hints that the pages print
+
+PRINTED = re.compile(r"\*Hint[ .\d]*\*\s(.*)")
+# Names that the words of a printed hint give, or leave to the reader.
+GIVEN = {
+    "00_race": {"curve"},  # the average curve
+    "07_driving_test": {"A"},  # of A V = r
+    "08_advice": {"copy"},  # of the table
+    "11_your_turn": {"wanted"},  # of the hint before
+}
+
+
+def asked(code):
+    """Return the names that are called or have something after a dot."""
+    nodes = list(ast.walk(ast.parse(code)))
+    before = [n.func for n in nodes if isinstance(n, ast.Call)]
+    before += [n.value for n in nodes if isinstance(n, ast.Attribute)]
+    return {n.id for n in before if isinstance(n, ast.Name)}
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
+def test_what_a_printed_hint_calls_is_on_its_page(path):
+    page = json.loads(path.read_text(encoding="utf-8"))
+    known = {*dir(builtins), *GIVEN.get(path.stem, ())}
+    for exercise in ALL.values():
+        if exercise.cases and exercise.key.startswith(f"ex-{int(path.name[:2])}-"):
+            known |= set(exercise.parameters)
+    for cell in page["cells"]:
+        text = "".join(cell["source"])
+        if cell["cell_type"] == "code":
+            known |= changed(text)[0]
+            continue
+        for hint in PRINTED.findall(re.sub(r"\{\w+\}`[^`]*`", "", text)):
+            for code in CODE.findall(hint):
+                if code in ("//", "%"):
+                    continue
+                known |= changed(code)[0]
+                assert asked(code) <= known, code
+                for name in re.findall(r"\b(?:at|np)(?:\.\w+)+", code):
+                    assert eval(name, {"at": at, "np": np}), name
