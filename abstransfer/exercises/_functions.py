@@ -51,11 +51,15 @@ def must_be_callable(exercise: Exercise, answer) -> None:
             f'`check("{exercise.key}", {exercise.name})`'
         )
     try:
-        inspect.signature(answer).bind(*exercise.parameters)
+        taken = inspect.signature(answer)
+        taken.bind(*exercise.parameters)
     except TypeError:
         raise Unreadable(f"Your function must take what `{signature}` takes") from None
     except ValueError:  # a built-in function that does not say what it takes
-        pass
+        return
+    names = list(taken.parameters)
+    if names != exercise.parameters and sorted(names) == sorted(exercise.parameters):
+        raise Unreadable(f"Take the arguments in the order of `{signature}`")
 
 
 @cache

@@ -170,6 +170,12 @@ def test_other_parameters_are_told():
     assert "`advice_probability(t, tau)`" in check("ex-8-1", lambda t: 1).text
 
 
+def test_another_order_of_parameters_is_told():
+    text = check("ex-8-1", lambda tau, t: max(0, 1 - t / tau)).text
+
+    assert text == "Take the arguments in the order of `advice_probability(t, tau)`."
+
+
 def test_a_wrong_answer_is_shown_beside_the_right_one():
     text = check("ex-8-1", lambda t, tau: 0.5).text
 
