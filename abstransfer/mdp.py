@@ -65,14 +65,14 @@ class MDP:
     allowed: np.ndarray | None = None
 
     def __post_init__(self):
-        next_state = _array("next_state", self.next_state, np.int32, 3)
+        next_state = as_array("next_state", self.next_state, np.int32, 3)
         n_states, n_actions, _ = next_state.shape
-        prob = _array("prob", self.prob, np.float64, 3, next_state.shape)
-        reward = _array("reward", self.reward, np.float64, 1, (n_states,))
-        terminal = _array("terminal", self.terminal, np.bool_, 1, (n_states,))
+        prob = as_array("prob", self.prob, np.float64, 3, next_state.shape)
+        reward = as_array("reward", self.reward, np.float64, 1, (n_states,))
+        terminal = as_array("terminal", self.terminal, np.bool_, 1, (n_states,))
         allowed = np.ones((n_states, n_actions), bool)
         if self.allowed is not None:
-            allowed = _array("allowed", self.allowed, np.bool_, 2, allowed.shape)
+            allowed = as_array("allowed", self.allowed, np.bool_, 2, allowed.shape)
         check_rows(prob)
         outside = (next_state < 0) | (next_state >= n_states)
         _refuse_first(outside, f"next_state must lie in 0..{n_states - 1}", next_state)
@@ -81,7 +81,7 @@ class MDP:
         _refuse_first(too_large, rule, reward)
         stuck = ~terminal & ~allowed.any(axis=1)
         _refuse_first(stuck, "allowed must leave every state an action", ~stuck)
-        gamma = float(_array("gamma", self.gamma, np.float64, 0))
+        gamma = float(as_array("gamma", self.gamma, np.float64, 0))
         if not 0 <= gamma < 1:
             raise ValueError(f"gamma must satisfy 0 <= gamma < 1, got {self.gamma}")
         object.__setattr__(self, "gamma", gamma)
@@ -123,14 +123,19 @@ def check_policy(policy: np.ndarray, mdp: MDP, name: str = "policy") -> np.ndarr
     Rows of terminal states are not read.  Raises ValueError where the shape is
     wrong, a row does not sum to 1, or an action is not allowed.
     """
-    if not isinstance(mdp, MDP):
-        kind = type(mdp).__name__
-        raise ValueError(f"mdp must be an MDP, as in tasks.mdp, got {kind}")
-    policy = _array(name, policy, np.float64, 2, (mdp.n_states, mdp.n_actions))
+    check_mdp(mdp)
+    policy = as_array(name, policy, np.float64, 2, (mdp.n_states, mdp.n_actions))
     check_rows(np.where(mdp.terminal[:, None], 1 / mdp.n_actions, policy), name)
     forbidden = (policy > 0) & ~mdp.allowed & ~mdp.terminal[:, None]
     _refuse_first(forbidden, f"{name} must use allowed actions only", policy)
     return policy
+
+
+def check_mdp(mdp: MDP) -> None:
+    """Refuse what is no MDP: tasks, say, for their ``mdp``."""
+    if not isinstance(mdp, MDP):
+        kind = type(mdp).__name__
+        raise ValueError(f"mdp must be an MDP, as in tasks.mdp, got {kind}")
 
 
 def numbers(name: str, value) -> np.ndarray:
@@ -144,7 +149,7 @@ def numbers(name: str, value) -> np.ndarray:
     return array
 
 
-def _array(name, value, dtype, ndim, shape=None) -> np.ndarray:
+def as_array(name: str, value, dtype, ndim: int, shape=None) -> np.ndarray:
     """Return a copy of `value` of this type and shape, or refuse it by name."""
     array = numbers(name, value)
     if array.ndim != ndim or 0 in array.shape or (shape and array.shape != shape):
@@ -155,6 +160,17 @@ def _array(name, value, dtype, ndim, shape=None) -> np.ndarray:
     if dtype is not np.float64 and not np.array_equal(converted, array):
         raise ValueError(f"{name} must hold {np.dtype(dtype).name}, got {array.dtype}")
     return converted
+
+
+def as_weights(name: str, value, shape=None) -> np.ndarray:
+    """Return a copy of `value` (N, A) as floats; refuse negative, infinite and nan."""
+    weights = as_array(name, value, np.float64, 2, shape)
+    bad = np.argwhere(~((weights >= 0) & (weights < np.inf)))
+    if len(bad):
+        row, action = bad[0]
+        got = f"at row {row}, action {action} it was {weights[row, action]}"
+        raise ValueError(f"{name} must be finite and not negative: {got}")
+    return weights
 
 
 def check_rows(prob: np.ndarray, name: str = "prob") -> None:

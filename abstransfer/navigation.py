@@ -7,8 +7,9 @@ Page 1 of the book teaches this module.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 from numbers import Real
 
 import numpy as np
@@ -116,6 +117,10 @@ def navigation_tasks(
     ValueError
         Naming the argument, what it must be and what it was.
 
+    See Also
+    --------
+    TaskParts : the same tasks a few at a time, where a union would be too large.
+
     Examples
     --------
     >>> from abstransfer.maps import read_map
@@ -123,12 +128,11 @@ def navigation_tasks(
     >>> tasks.mdp.n_states, tasks.mdp.n_actions  # 11 tasks of 135 cells
     (1485, 8)
     """
-    maps = (maps,) if isinstance(maps, Map) else tuple(maps)
     check_options(
         success=success, reward=reward, actions=actions, unavailable=unavailable
     )
     features = check_features(features)
-    building, goal = _select_tasks(maps, keep)
+    maps, building, goal = _select_tasks(maps, keep)
 
     sizes = [maps[b].n_cells for b in building]
     task = np.repeat(np.arange(len(goal)), sizes)
@@ -164,6 +168,50 @@ def navigation_tasks(
     )
 
 
+@dataclass(frozen=True)
+class TaskParts(Sequence):
+    """
+    The tasks of one map or of several, a few at a time: a sequence of unions.
+
+    A part is made when it is asked for, and not kept: what a large building takes
+    is then the memory of one part.  The union of all is block-diagonal, so values
+    of the parts are values of the union.
+
+    Parameters
+    ----------
+    maps : Map or sequence of Map
+    options : dict, optional
+        Of :func:`navigation_tasks`, without ``keep``.
+    states : int, default 10,000
+        A part is closed when it has so many states or more.
+
+    Examples
+    --------
+    >>> from abstransfer.maps import read_map
+    >>> parts = TaskParts(read_map("target"))
+    >>> [part.mdp.n_states for part in parts]
+    [10260, 8640]
+    """
+
+    maps: Map | Sequence[Map]
+    options: Mapping = field(default_factory=dict)
+    states: int = 10_000
+
+    def __len__(self) -> int:
+        return len(self._tasks)
+
+    def __getitem__(self, i: int) -> NavigationTasks:
+        return navigation_tasks(self.maps, keep=self._tasks[i], **self.options)
+
+    @cached_property
+    def _tasks(self) -> list[np.ndarray]:
+        """The tasks of each part."""
+        maps, building, _ = _select_tasks(self.maps, None)
+        before = np.cumsum([0, *(maps[b].n_cells for b in building[:-1])])
+        last = np.flatnonzero(np.diff(before // self.states))
+        return np.split(np.arange(len(building)), last + 1)
+
+
 def check_options(
     *,
     success: float = 0.9,
@@ -190,14 +238,15 @@ def check_options(
             raise ValueError(f"{name} must be one of {known}, got {value!r}")
 
 
-def _select_tasks(maps, keep) -> tuple[np.ndarray, np.ndarray]:
-    """Return building (N,) and goal cell (N,) of the tasks to keep."""
+def _select_tasks(maps, keep) -> tuple[tuple[Map, ...], np.ndarray, np.ndarray]:
+    """Return the maps, and building (N,) and goal cell (N,) of the tasks to keep."""
+    maps = (maps,) if isinstance(maps, Map) else tuple(maps)
     if not maps or not all(isinstance(map_, Map) for map_ in maps):
         raise ValueError(f"maps must be one Map or several, got {maps!r}")
     building = np.repeat(np.arange(len(maps)), [len(map_.goals) for map_ in maps])
     goal = np.concatenate([map_.goals for map_ in maps])
     if keep is None:
-        return building, goal
+        return maps, building, goal
     keep = np.asarray(keep)
     if (
         keep.ndim != 1
@@ -206,7 +255,7 @@ def _select_tasks(maps, keep) -> tuple[np.ndarray, np.ndarray]:
         or not np.isin(keep, range(len(goal))).all()
     ):
         raise ValueError(f"keep must name tasks among 0..{len(goal) - 1}, got {keep}")
-    return building[keep], goal[keep]
+    return maps, building[keep], goal[keep]
 
 
 def _ways(labels: np.ndarray, actions: str) -> np.ndarray:

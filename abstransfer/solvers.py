@@ -10,21 +10,25 @@ Page 2 of the book teaches this module.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .mdp import MDP, check_policy
+from .mdp import MDP, as_array, check_mdp, check_policy
 
 if TYPE_CHECKING:  # SciPy takes longer to load than all else: only where it is used
     from scipy.sparse import csr_array
 
 TIE = 1e-9  # actions whose values differ by less, in rewards, are equally good
+NEAR, SWEEPS = 1e-2, 1000  # sweep until no value moves by more, in rewards; at most
 
 
 def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
     """
     Return P (S, S) under a policy (S, A); rows of terminal states are empty.
+
+    Raises ValueError if `policy` is no policy of `mdp`.
 
     >>> import numpy as np
     >>> both_ways = MDP([[[0], [1]], [[1], [1]]], np.ones((2, 2, 1)), [0, 1],
@@ -33,14 +37,21 @@ def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
     array([[0.5, 0.5],
            [0. , 0. ]])
     """
+    policy = np.where(mdp.terminal[:, None], 0.0, check_policy(policy, mdp))
+    state, action, next_state, prob = mdp.transitions
+    weight = policy.ravel()[state * mdp.n_actions + action] * prob
+    used = np.flatnonzero(weight)
+    matrix = _rows(weight[used], state[used], next_state[used], mdp.n_states, mdp.n_states)
+    matrix.sum_duplicates()
+    return matrix
+
+
+def _rows(weight, row, column, n_rows: int, n_columns: int) -> csr_array:
+    """Return a matrix whose entries come row by row, in the order they come."""
     from scipy.sparse import csr_array
 
-    state, action, next_state, prob = mdp.transitions
-    weight = np.where(mdp.terminal[state], 0.0, policy[state, action] * prob)
-    shape = (mdp.n_states, mdp.n_states)
-    matrix = csr_array((weight, (state, next_state)), shape=shape)
-    matrix.eliminate_zeros()
-    return matrix
+    first = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=n_rows))])
+    return csr_array((weight, column, first), shape=(n_rows, n_columns))
 
 
 def factorize(mdp: MDP, transitions: csr_array):
@@ -48,7 +59,8 @@ def factorize(mdp: MDP, transitions: csr_array):
     from scipy.sparse import eye_array
     from scipy.sparse.linalg import splu
 
-    return splu(eye_array(mdp.n_states, format="csc") - mdp.gamma * transitions.tocsc())
+    matrix = eye_array(mdp.n_states, format="csc") - mdp.gamma * transitions.tocsc()
+    return splu(matrix, relax=1, panel_size=1)  # few entries: no dense blocks to find
 
 
 def evaluate_policy(mdp: MDP, policy: np.ndarray) -> np.ndarray:
@@ -87,8 +99,7 @@ def evaluate_policy(mdp: MDP, policy: np.ndarray) -> np.ndarray:
     >>> evaluate_policy(corridor, np.ones((3, 1)))
     array([0.25, 0.5 , 1.  ])
     """
-    transitions = transition_matrix(mdp, check_policy(policy, mdp))
-    return factorize(mdp, transitions).solve(mdp.reward)
+    return factorize(mdp, transition_matrix(mdp, policy)).solve(mdp.reward)
 
 
 def action_values(mdp: MDP, v: np.ndarray) -> np.ndarray:
@@ -96,10 +107,15 @@ def action_values(mdp: MDP, v: np.ndarray) -> np.ndarray:
     Return Q (S, A): the expected value v (S,) of the state each action leads to.
 
     Zero in terminal states, minus infinity where an action is not allowed.
+    Raises ValueError unless `v` is one finite number a state.
     """
+    check_mdp(mdp)
+    v = as_array("v", v, np.float64, 1, (mdp.n_states,))
+    if not np.isfinite(v).all():
+        raise ValueError(f"v must be finite, got {v}")
     state, action, next_state, prob = mdp.transitions
-    q = np.zeros((mdp.n_states, mdp.n_actions))
-    np.add.at(q, (state, action), prob * v[next_state])
+    entry, size = state * mdp.n_actions + action, mdp.n_states * mdp.n_actions
+    q = np.bincount(entry, prob * v[next_state], size).reshape(mdp.allowed.shape)
     q[~mdp.allowed] = -np.inf
     q[mdp.terminal] = 0.0
     return q
@@ -115,28 +131,43 @@ def value_iteration(mdp: MDP) -> Iterator[np.ndarray]:
     >>> [v.tolist() for v in islice(value_iteration(corridor), 3)]
     [[0.0, 0.0, 1.0], [0.0, 0.5, 1.0], [0.25, 0.5, 1.0]]
     """
+    check_mdp(mdp)
+    state, action, next_state, prob = mdp.transitions
+    order = np.argsort(action, kind="stable")  # action by action: max is fast
+    row = (action * mdp.n_states + state)[order]
+    shape = mdp.n_actions, mdp.n_states
+    outcomes = _rows(
+        prob[order], row, next_state[order], mdp.allowed.size, mdp.n_states
+    )
+    barred = np.where(mdp.allowed.T, 0.0, -np.inf)
     v = mdp.reward
     while True:
         yield v
-        v = mdp.reward + mdp.gamma * action_values(mdp, v).max(axis=1)
+        best = ((outcomes @ v).reshape(shape) + barred).max(axis=0)
+        v = mdp.reward + mdp.gamma * np.where(mdp.terminal, 0.0, best)
 
 
 def optimal_values(mdp: MDP) -> np.ndarray:
     """
     Return the optimal value of every state, exact, shape (S,).
 
-    Policy iteration, started from the values of the uniform policy.  An action
-    is changed only for one better by more than `TIE` times the largest reward:
-    equally good ones would swap for ever on rounding.
+    Policy iteration, started from what is best after some sweeps of value
+    iteration: a sweep is far cheaper than a round, and carries news as far.  An
+    action is changed only for one better by more than `TIE` times the largest
+    reward: equally good ones would swap for ever on rounding.
 
     >>> corridor = MDP([[[0], [1]], [[0], [2]], [[2], [2]]], np.ones((3, 2, 1)),
     ...                [0, 0, 1], [False, False, True], 0.5)
     >>> optimal_values(corridor)
     array([0.25, 0.5 , 1.  ])
     """
+    sweeps = value_iteration(mdp)
+    v = next(sweeps)
+    for new in islice(sweeps, SWEEPS):
+        moved, v = np.abs(new - v).max(), new
+        if moved <= NEAR * np.abs(mdp.reward).max():
+            break
     states = np.arange(mdp.n_states)
-    n_allowed = mdp.allowed.sum(axis=1, keepdims=True)
-    v = evaluate_policy(mdp, mdp.allowed / np.maximum(n_allowed, 1))
     best = action_values(mdp, v).argmax(axis=1)
     while True:
         v = evaluate_policy(mdp, np.eye(mdp.n_actions)[best])
