@@ -1,9 +1,10 @@
 # make book   build the book into build/_build/html
 # make test   check everything: style, package, notebooks, built pages
+# make test-core  check the method only, in half a minute
 # make lab    open the notebooks in JupyterLab
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
-# make bench  measure the learning loops beside other people's (a minute or two)
+# make bench  measure the learning loops beside other people's, and the pages
 # make clean  remove what these made
 #
 # The only need is Python 3.11 or newer; to choose one: make book PYTHON=python3.12
@@ -13,14 +14,17 @@ HERE := $(shell cd "$$(dirname "$(strip $(MAKEFILE_LIST))")" && pwd -P)
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 DENO := DENO_DIR=.venv/share/deno $(BIN)/deno
-PYTEST := $(BIN)/python -m pytest --quiet -n 2
+# The tests of a file share what is costly to make, so a file stays in one process.
+PYTEST := $(BIN)/python -m pytest --quiet -n 2 --dist loadfile --no-loadscope-reorder
+CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/*.py) \
+  $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test lab pdf student bench clean env system
+.PHONY: book test test-core lab pdf student bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test lab pdf student bench clean env system:
+book test test-core lab pdf student bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -61,9 +65,11 @@ test: .venv/.book system
 	$(DENO) lint
 	$(DENO) check abstransfer/scenes
 	$(MAKE) --no-print-directory book
-	$(PYTEST) --dist worksteal
-	$(PYTEST) --dist loadfile --nbval --nbval-current-env --nbval-cell-timeout=120 \
-	  book/*.ipynb
+	$(PYTEST)
+
+# For a patch to the method: maps to learning, with the examples of their docstrings.
+test-core: .venv/.book
+	$(PYTEST) -m "not slow" $(CORE)
 
 # On a build server the browser comes from the system's packages and no test is
 # skipped; elsewhere the tests that need it say how to get it.
@@ -78,6 +84,7 @@ endif
 bench: .venv/.book
 	$(PIP) --editable ".[peers]"
 	$(BIN)/python benchmarks/run.py
+	$(BIN)/python benchmarks/pages.py
 
 # First look for the browser: the book takes a while to build.
 pdf: .venv/.book

@@ -89,7 +89,7 @@ def test_only_known_cells_escape_the_comparison(notebook):
 
 
 def test_a_page_is_stored_as_the_tool_stores_it(notebook):
-    """That another run gives the same outputs is for nbval; see book/conftest.py."""
+    """That another run gives the same outputs is for nbval; see conftest.py."""
     path, _ = notebook
 
     settled = refresh_notebooks.settled(nbformat.read(path, as_version=4))

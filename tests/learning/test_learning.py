@@ -499,6 +499,7 @@ def test_a_run_on_the_target_map_is_the_same_on_every_machine(
     assert sha256(result.q.tobytes()).hexdigest()[:16] == digest
 
 
+@pytest.mark.slow
 def test_the_first_call_says_that_it_compiles(tmp_path):
     code = (
         "import numpy as np; from abstransfer import MDP;"

@@ -371,6 +371,7 @@ def digest(variables, phases=tuple(PHASES), traces=(0, 1500), n_runs=4):
     ).stdout.split()
 
 
+@pytest.mark.slow
 def test_compiled_and_plain_python_agree_to_the_bit():
     """Three runs in turn and one alone, on both loops, in all phases."""
     compiled = digest({})
@@ -415,6 +416,7 @@ def test_no_value_makes_a_loop_leave_its_row():
     assert (done.stdout, done.stderr) == ("whole\n", "")
 
 
+@pytest.mark.slow
 def test_a_processor_without_wide_registers_gives_the_same_to_the_bit(tmp_path):
     """And no index leaves its array: all are checked, since it is compiled anew."""
     old = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}

@@ -1,6 +1,5 @@
-"""How nbval compares the pages: all of an output, by one worker, however busy it is."""
+"""How nbval compares the pages: all of an output, however busy the machine is."""
 
-import pytest
 from nbval.plugin import IPyNbCell
 
 # nbval leaves these out; a second run gives them too.  What stays out: the random names
@@ -17,4 +16,3 @@ def pytest_collection_modifyitems(items):
             item.output_timeout = PATIENCE
             page = item.parent
             page.skip_compare = tuple(set(page.skip_compare) - COMPARED)
-            item.add_marker(pytest.mark.xdist_group(page.path.name))
