@@ -41,7 +41,9 @@ def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
     state, action, next_state, prob = mdp.transitions
     weight = policy.ravel()[state * mdp.n_actions + action] * prob
     used = np.flatnonzero(weight)
-    matrix = _rows(weight[used], state[used], next_state[used], mdp.n_states, mdp.n_states)
+    matrix = _rows(
+        weight[used], state[used], next_state[used], mdp.n_states, mdp.n_states
+    )
     matrix.sum_duplicates()
     return matrix
 

@@ -54,7 +54,7 @@ def _fails_at_equal(neighbors, goal, success, cell, direction, luck):
 
 
 def _four_cells(rng):
-    """Yield each step from the cells of a corridor and of a square, with three lucks."""
+    """Yield each step from cells of a corridor and of a square, with three lucks."""
     corridor = [[-1, 1, -1, -1], [-1, 2, -1, 0], [-1, 3, -1, 1], [-1, -1, -1, 2]]
     square = [[-1, 1, 2, -1], [-1, -1, 3, 0], [0, 3, -1, -1], [1, -1, -1, 2]]
     for neighbors, goal in ((corridor, 3), (square, 0), (square, 2)):
