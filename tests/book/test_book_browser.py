@@ -3,9 +3,9 @@
 from importlib.resources import files
 
 import pytest
-from support import toc_pages
+from support import Visit, toc_pages
+from test_pages import BOOK, LESSONS, questions, text_of
 
-PAGES = toc_pages()
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 # What the theme itself does wrong: (rule, part of the element).
 KNOWN = (
@@ -14,41 +14,102 @@ KNOWN = (
     ("aria-deprecated-role", "doc-biblioentry"),
     ("aria-required-children", "citation-list"),
 )
-
-
-@pytest.fixture(params=PAGES)
-def name(request):
-    return request.param
+WIDE, PHONE = ({"width": width, "height": 900} for width in (1440, 400))
+# Scenes live, letters are there, nothing glides, and it was painted.
+DRAWN = """async () => {
+    const pictures = async (n) => {
+        while (n--) await new Promise(requestAnimationFrame);
+    };
+    await document.fonts.ready;
+    const waiting = ".abstransfer-scene:not(.ab-live)";
+    while (document.querySelector(waiting)) await pictures(1);
+    await pictures(2);
+    while (document.getAnimations().some((each) => each.playState === "running"))
+        await pictures(1);
+    await pictures(2);
+}"""
 
 
 def drawn(page):
-    """Wait until formulas, letters and scenes are there."""
+    """Wait until formulas, letters and scenes are there, and no colour glides."""
     if page.locator(".math").count():
-        page.wait_for_selector("mjx-container", timeout=10_000)
+        page.wait_for_selector("mjx-container")
         page.evaluate("MathJax.startup.promise")
-    page.evaluate("document.fonts.ready")
-    page.wait_for_timeout(500)
+    page.evaluate(DRAWN)
     return page
 
 
-def test_a_page_opens_without_a_network_and_fits_a_phone(visit, name):
-    tab = visit()
-    page = drawn(tab.open(name))
+@pytest.fixture(scope="module")
+def tab(html, chromium):
+    context = chromium.new_context(viewport=WIDE, color_scheme="light")
+    yield Visit(context, html)
+    context.close()
+
+
+@pytest.fixture(scope="module", params=toc_pages())
+def page(tab, request):
+    """A page of the book, opened once for all that is asked of it."""
+    tab.problems.clear()
+    tab.page.emulate_media(color_scheme="light")
+    return drawn(tab.open(request.param))
+
+
+def test_a_page_draws_its_formulas(page):
     n_formulas = page.locator(".math").count()
 
     assert page.locator("mjx-container").count() == n_formulas
     assert page.locator("mjx-merror, [data-mjx-error]").count() == 0
 
-    page.set_viewport_size({"width": 400, "height": 900})
-    page.wait_for_timeout(200)
-    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+
+def test_a_page_is_accessible(page):
+    page.evaluate(AXE)
+
+    assert faults(page, "") == []
+
+
+def test_a_page_fits_a_phone(page):
+    page.set_viewport_size(PHONE)
+    try:
+        width = drawn(page).evaluate("document.documentElement.scrollWidth")
+    finally:
+        page.set_viewport_size(WIDE)
+
+    assert width <= 400
+
+
+def test_each_choice_of_a_quiz_opens_by_keyboard(page):
+    choices = page.locator("section#quiz details > summary")
+    for choice in choices.all():
+        choice.focus()
+        page.keyboard.press("Enter")
+
+    opened = page.locator("section#quiz details[open]").count()
+    source = BOOK / page.url.rpartition("/")[2].replace(".html", ".ipynb")
+    lesson = source in LESSONS
+    wanted = sum(map(len, questions(text_of(source)))) if lesson else 0
+    assert opened == choices.count() == wanted
+
+
+def test_a_page_and_its_pictures_are_legible_in_the_dark(page):
+    page.emulate_media(color_scheme="dark")
+    page.wait_for_function("document.documentElement.dataset.theme == 'dark'")
+    drawn(page)
+
+    assert faults(page, "runOnly: ['color-contrast']") == []
+    pictures = page.locator("article img").evaluate_all(
+        "images => images.map(i => getComputedStyle(i))"
+        ".map(style => style.backgroundColor + ' ' + style.filter)"
+    )
+    assert set(pictures) <= {"rgb(255, 255, 255) none"}, "they stand on a light card"
+
+
+def test_a_page_asks_nothing_of_the_network_and_no_script_fails(page, tab):
+    assert tab.page is page
     assert tab.problems == []
 
 
 def test_letters_of_formulas_come_from_the_books_own_font(visit):
-    page = visit().open("notation")
-    page.wait_for_selector("mjx-container")
-    page.evaluate("document.fonts.ready")
+    page = drawn(visit().open("notation"))
     loaded = page.evaluate(
         "[...document.fonts].filter(f => f.status == 'loaded').map(f => f.family)"
     )
@@ -58,29 +119,15 @@ def test_letters_of_formulas_come_from_the_books_own_font(visit):
 
 def faults(page, options):
     """Return what axe finds on a page, but for what is known of the theme."""
-    result = page.evaluate(f"axe.run({{resultTypes: ['violations'], {options}}})")
+    # No preload: axe would ask for the style sheets anew, which files refuse.
+    options = f"{{resultTypes: ['violations'], preload: false, {options}}}"
+    result = page.evaluate(f"axe.run({options})")
     found = [
         (violation["id"], node["html"], node["failureSummary"])
         for violation in result["violations"]
         for node in violation["nodes"]
     ]
     return [f for f in found if not any(r == f[0] and s in f[1] for r, s in KNOWN)]
-
-
-def test_a_page_is_accessible_and_its_pictures_are_legible_in_the_dark(visit, name):
-    page = drawn(visit().open(name))
-    page.evaluate(AXE)
-    assert faults(page, "") == []
-
-    page.emulate_media(color_scheme="dark")
-    page.wait_for_function("document.documentElement.dataset.theme == 'dark'")
-    page.wait_for_timeout(400)  # colours glide
-    assert faults(page, "runOnly: ['color-contrast']") == []
-    pictures = page.locator("article img").evaluate_all(
-        "images => images.map(i => getComputedStyle(i))"
-        ".map(style => style.backgroundColor + ' ' + style.filter)"
-    )
-    assert set(pictures) <= {"rgb(255, 255, 255) none"}, "they stand on a light card"
 
 
 def test_the_search_finds_a_page(visit):

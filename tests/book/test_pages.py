@@ -7,9 +7,8 @@ import sys
 
 import pytest
 import reading_level
-from bs4 import BeautifulSoup
 from pages import stated_seconds
-from support import ROOT, toc_pages
+from support import ROOT
 
 BOOK = ROOT / "book"
 LESSONS = sorted(BOOK.glob("[0-9]*.ipynb"))
@@ -51,21 +50,6 @@ def test_a_quiz_has_three_questions_each_with_one_right_choice(lesson):
         assert len(set(choices)) == len(choices)
         assert sum(reply.startswith("Yes") for reply in replies) == 1
         assert all(len(reply.split()) >= 4 for reply in replies), "a reply says why"
-
-
-@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
-def test_each_choice_of_a_quiz_opens_by_keyboard_on_the_built_page(html, path):
-    page = html / f"{path.stem}.html"
-    if path.stem not in toc_pages():
-        pytest.skip("not in the table of contents yet")
-    article = BeautifulSoup(page.read_text(), "html.parser").find("article")
-    opening = [details.find("summary") for details in article.find_all("details")]
-    titles = [" ".join(s.get_text(" ").split()) for s in opening if s]
-
-    # A browser opens a <summary> by Enter and space, without any script.
-    wanted = sum(map(len, questions(text_of(path))))
-    assert all(opening)
-    assert len(titles) >= wanted >= 6
 
 
 @pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.stem)
