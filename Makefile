@@ -16,7 +16,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c const
 DENO := DENO_DIR=.venv/share/deno $(BIN)/deno
 # The tests of a file share what is costly to make, so a file stays in one process.
 PYTEST := $(BIN)/python -m pytest --quiet -n 2 --dist loadfile --no-loadscope-reorder
-CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/*.py) \
+CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
 .PHONY: book test test-core lab pdf student bench clean env system
