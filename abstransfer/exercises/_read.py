@@ -59,6 +59,8 @@ def numbers(answer) -> np.ndarray:
         text = plain(answer)
         if len(re.findall(r",(?=\d)", text)) == 1:  # of decimals
             text = re.sub(r",(?=\d)", ".", text)
+        if "," in text:  # a tuple, or a list
+            text = text.strip("()[]")
         found = [formula(part) for part in re.split(r";|,|\band\b", text)]
         answer = found[0] if len(found) == 1 else found
     elif isinstance(answer, Iterator):

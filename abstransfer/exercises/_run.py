@@ -100,11 +100,10 @@ def _guarded(work, heard, done, ended):
 
 def described(error: BaseException) -> str:
     """Name an error and what it says, whatever it does when it is asked."""
-    name = short(type(error).__name__, 60)
-    try:
+    name = said = "an error that cannot say what it is"
+    with contextlib.suppress(BaseException):
+        name = short(type(error).__name__, 60)
         said = short(str(error))
-    except BaseException:
-        said = "an error that cannot say what it is"
     return f"`{name}: {said}`" if said else f"`{name}`"
 
 

@@ -45,6 +45,15 @@ class SilentForEver(BaseException):
         raise SilentForEver
 
 
+class Nameless(type):
+    def __getattribute__(cls, name):
+        raise RuntimeError("no name")
+
+
+class OfNoName(Exception, metaclass=Nameless):
+    pass
+
+
 class Own(BaseException):
     pass
 
@@ -85,6 +94,10 @@ def test_any_error_of_an_answer_is_told_in_words(error):
     assert reply.verdict == "no answer yet"
     assert f"Your function stopped with `{type(error).__name__}" in reply.text
     assert "called with t=" in reply.text
+
+
+def test_an_error_without_a_name_is_told_in_words():
+    assert "an error that cannot say what it is" in told(raising(OfNoName())).text
 
 
 class Strange:
