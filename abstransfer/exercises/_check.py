@@ -76,8 +76,9 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
     -----
     Whatever an answer does, it is told in words, and nothing of it stays: what it
     prints is told shortly; numpy's and Python's luck, print options, warnings, the
-    environment, the folder and the arguments are as they were.  After ten seconds an
-    answer is stopped; a single call into compiled code cannot be stopped.
+    environment, the folder and the arguments are as they were.  After ten seconds of
+    work, or thirty of waiting, an answer is stopped; a single call into compiled code
+    cannot be stopped.
 
     Examples
     --------

@@ -26,7 +26,8 @@ import numpy as np
 
 from ._read import Unreadable, short
 
-LIMIT = 10.0  # seconds that judging one answer may take
+LIMIT = 10.0  # seconds that an answer may take of the processor, which a loop uses
+WAITING = 3  # times as long by the clock, for what sleeps and for a busy machine
 PATIENCE = 1.0  # seconds that a stopped answer has to end
 SLICE = 0.1  # seconds between two looks: no longer, for Windows waits deaf
 
@@ -109,9 +110,10 @@ def described(error: BaseException) -> str:
 
 def _wait(ended, seconds):
     """Wait for an event; not for a thread: interrupted, that is thought to be dead."""
-    end = time.monotonic() + seconds
-    while (left := end - time.monotonic()) > 0 and not ended.wait(min(left, SLICE)):
-        pass
+    worked, end = time.process_time() + seconds, time.monotonic() + WAITING * seconds
+    while time.process_time() < worked and time.monotonic() < end:
+        if ended.wait(min(seconds, SLICE)):
+            return
 
 
 def _stop(thread, ended):
