@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .maps import CORRIDOR, Map
+from .mdp import as_array, numbers
 
 KINDS = ("see_empty_space", "see_door_far", "see_room", "see_corridor")
 ORIENTATIONS = ("head_to_goal", "opposite_to_goal")
@@ -43,20 +44,16 @@ def look(map_: Map, goal: int) -> Sight:
     >>> [LABELS[label] for label in sight.labels[0] if label != NO_LABEL]
     ['see_room_head_to_goal']
     """
+    if goal not in range(map_.n_cells):
+        raise ValueError(f"goal must lie in 0..{map_.n_cells - 1}, got {goal!r}")
     neighbors, doors, width = map_.neighbors, map_.doors, map_.shape[1]
     in_room = map_.cells != CORRIDOR
     row, column = np.divmod(np.arange(map_.n_cells), width)
     distance = abs(row - goal // width) + abs(column - goal % width)
     far_door = doors.any(axis=1)
-    kind = np.select(
-        [doors & in_room[neighbors], doors, far_door[neighbors]],
-        [
-            KINDS.index("see_room"),
-            KINDS.index("see_corridor"),
-            KINDS.index("see_door_far"),
-        ],
-        KINDS.index("see_empty_space"),
-    )
+    empty, far, room, corridor = range(len(KINDS))
+    first_of = [doors & in_room[neighbors], doors, far_door[neighbors]]
+    kind = np.select(first_of, [room, corridor, far], empty)
     away = distance[neighbors] > distance[:, None]
     labels = np.where(neighbors < 0, NO_LABEL, kind + len(KINDS) * away)
     return Sight(neighbors, labels, distance, in_room)
@@ -98,6 +95,8 @@ def abstract_states(
     ('0b11000000000', 'almost_near_goal ^ in_room')
     """
     features = check_features(features)
+    near = as_array("near", near, np.int64, 0)
+    almost_near = as_array("almost_near", almost_near, np.int64, 0)
     if not 0 <= near <= almost_near:
         raise ValueError(
             f"0 <= near <= almost_near must hold, got {near}, {almost_near}"
@@ -127,6 +126,7 @@ def describe(z: int, features: Sequence[str] = FEATURES) -> str:
     >>> describe(0b010_0010_0001, features=FEATURES)
     'see_empty_space_head_to_goal ^ see_door_far_opposite_to_goal ^ almost_near_goal'
     """
+    z = int(as_array("z", z, np.int64, 0))
     if not 0 <= z < 1 << len(features):
         raise ValueError(f"z must lie in 0..{(1 << len(features)) - 1}, got {z}")
     true = [name for bit, name in enumerate(features) if z >> bit & 1]
@@ -149,4 +149,5 @@ def unseen_share(rho: np.ndarray, voted: np.ndarray) -> float:
     >>> unseen_share(np.array([0, 1, 1, 2]), np.array([0, 1]))
     0.25
     """
-    return float(np.mean(~np.isin(rho, voted)))
+    rho = as_array("rho", rho, np.int64, 1)
+    return float(np.mean(~np.isin(rho, numbers("voted", voted))))

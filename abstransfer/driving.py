@@ -6,13 +6,16 @@ Page 7 of the book teaches this module.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import chain
 
 import numpy as np
 
-from .abstraction import LABELS, unseen_share
+from .abstraction import LABELS
 from .builders import BUILDERS, abstract_policies
-from .navigation import NavigationTasks
+from .mdp import as_array, check_rows
+from .navigation import NavigationTasks, parts_of
 from .policies import ground, restrict_policy, uniform_policy
 from .solvers import evaluate_policy, optimal_values
 
@@ -35,9 +38,15 @@ def advised(tasks: NavigationTasks, advice: np.ndarray) -> np.ndarray:
     Return the policy (S, A) of a robot that obeys advice (Z, A), or (Z, labels).
 
     Advice over a compass robot's own four moves is obeyed as it stands; advice
-    over labels is grounded in the moves that carry them.
+    over labels is grounded in the moves that carry them.  Raises ValueError where
+    `advice` is no abstract policy of `tasks`.
     """
-    if tasks.actions != LABELS and advice.shape[1] == len(LABELS):
+    (tasks,) = parts_of(tasks)
+    moves = tasks.actions != LABELS and np.shape(advice)[1:] == (len(LABELS),)
+    shape = tasks.n_abstract, len(LABELS if moves else tasks.actions)
+    advice = as_array("advice", advice, np.float64, 2, shape)
+    check_rows(advice, "advice")
+    if moves:
         return ground(advice, tasks.rho, tasks.labels)
     return restrict_policy(advice[tasks.rho], tasks.mdp.allowed)
 
@@ -65,28 +74,40 @@ def executed_values(
 
 
 def column(
-    tasks: NavigationTasks, policies: Mapping[str, np.ndarray]
+    tasks: NavigationTasks | Iterable[NavigationTasks],
+    policies: Mapping[str, np.ndarray],
 ) -> dict[str, int | float]:
     """
     Return one column of Table 1, with the counts of its maps.
 
     Values are those of :func:`executed_values`; ``abstract_states`` counts those
-    of non-goal cells.
+    of non-goal cells.  The tasks may come in parts, of which one is held at a time.
     """
-    mdp = tasks.mdp
+    return _column(tasks, policies)[0]
+
+
+def _column(tasks, policies) -> tuple[dict[str, int | float], np.ndarray]:
+    """Return a column, and how many non-goal states each abstract state has, (Z,)."""
+    total, n_states, goals, seen = Counter(), 0, 0, 0
+    for part in parts_of(tasks):
+        mdp = part.mdp
+        values = {
+            "rand": _mean_value(part, uniform_policy(mdp.allowed)),
+            **executed_values(part, policies),
+            "uniform_available": _mean_value(part, uniform_policy(part.available)),
+            "optimal": float(optimal_values(mdp).mean()),
+        }
+        total.update({name: mdp.n_states * value for name, value in values.items()})
+        n_states += mdp.n_states
+        goals += len(part.goal)
+        seen += np.bincount(part.rho[~mdp.terminal], minlength=part.n_abstract)
     counts = {
-        "cells": sum(map_.n_cells for map_ in tasks.maps),
-        "rooms": sum(map_.n_rooms for map_ in tasks.maps),
-        "goals": len(tasks.goal),
-        "abstract_states": len(np.unique(tasks.rho[~mdp.terminal])),
+        "cells": sum(map_.n_cells for map_ in part.maps),
+        "rooms": sum(map_.n_rooms for map_ in part.maps),
+        "goals": goals,
+        "abstract_states": int(np.count_nonzero(seen)),
     }
-    return {
-        **counts,
-        "rand": _mean_value(tasks, uniform_policy(mdp.allowed)),
-        **executed_values(tasks, policies),
-        "uniform_available": _mean_value(tasks, uniform_policy(tasks.available)),
-        "optimal": float(optimal_values(mdp).mean()),
-    }
+    return counts | {name: sum_ / n_states for name, sum_ in total.items()}, seen
 
 
 def _mean_value(tasks: NavigationTasks, policy: np.ndarray) -> float:
@@ -94,13 +115,16 @@ def _mean_value(tasks: NavigationTasks, policy: np.ndarray) -> float:
 
 
 def table1(
-    source: NavigationTasks,
-    target: NavigationTasks | None = None,
+    source: NavigationTasks | Sequence[NavigationTasks],
+    target: NavigationTasks | Iterable[NavigationTasks] | None = None,
     *,
     progress: Callable[[Iterable], Iterable] = iter,
 ) -> dict:
     """
     Return Table 1: policies of the source, executed in source and target.
+
+    Both may come in parts, as :func:`~abstransfer.navigation.tasks_in_parts`
+    makes them: those of the source are held, those of the target one at a time.
 
     Returns
     -------
@@ -121,18 +145,21 @@ def table1(
     >>> round(result["source"]["optimal"], 2)
     -14.0
     """
-    if target is not None and (source.features, source.actions) != (
-        target.features,
-        target.actions,
-    ):
-        raise ValueError("source and target must have the same features and actions")
-    policies = abstract_policies(source, progress=progress)
-    result = {"source": column(source, policies)}
+    source = list(parts_of(source, "source"))
     if target is not None:
-        result["target"] = column(target, policies)
-        result["unseen"] = unseen_share(
-            target.rho[~target.mdp.terminal], source.rho[~source.mdp.terminal]
-        )
+        target = parts_of(target, "target")
+        first = next(target)
+        if (source[0].features, source[0].actions) != (first.features, first.actions):
+            raise ValueError(
+                "source and target must have the same features and actions"
+            )
+        target = chain([first], target)
+    policies = abstract_policies(source, progress=progress)
+    result = {}
+    result["source"], known = _column(source, policies)
+    if target is not None:
+        result["target"], met = _column(target, policies)
+        result["unseen"] = float(met[known == 0].sum() / met.sum())
     return result
 
 

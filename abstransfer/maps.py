@@ -121,19 +121,6 @@ class Map:
         """Number of doors; each belongs to two cells."""
         return int(self.doors.sum()) // 2
 
-    def _edge(self, cell, direction) -> tuple[int, int]:
-        """Return the place of an edge in the text; refuse what is not on the map."""
-        row, column = cell
-        height, width = self.shape
-        if not (0 <= row < height and 0 <= column < width):
-            raise ValueError(f"cell must lie within {height} x {width}, got {cell}")
-        if direction not in DIRECTIONS:
-            raise ValueError(
-                f"direction must be one of {DIRECTIONS}, got {direction!r}"
-            )
-        d_row, d_column = STEP[DIRECTIONS.index(direction)]
-        return 2 * row + 1 + d_row, 2 * column + 1 + d_column
-
     def set_edge(self, cell: tuple[int, int], direction: str, kind: str) -> Map:
         """
         Return the map with one edge made a ``"wall"``, a ``"door"`` or ``"open"``.
@@ -145,40 +132,25 @@ class Map:
         >>> room.set_edge((0, 0), "E", "door").n_rooms
         2
         """
-        place = self._edge(cell, direction)
+        height, width = self.shape
+        if tuple(np.ravel(cell)) not in np.ndindex(height, width):
+            raise ValueError(f"cell must lie within {height} x {width}, got {cell}")
         wall = "-" if direction in ("N", "S") else "|"
-        char = {"wall": wall, "door": "d", "open": OPEN}
-        if kind not in char:
-            raise ValueError(f"kind must be one of {tuple(char)}, got {kind!r}")
-        return self._redrawn({place: char[kind]})
-
-    def toggle_wall(self, cell: tuple[int, int], direction: str) -> Map:
-        """Return the map with a wall where there was none, or without it."""
-        is_wall = self.chars[self._edge(cell, direction)] in ("-", "|")
-        return self.set_edge(cell, direction, "open" if is_wall else "wall")
+        char = {"wall": wall, "door": DOOR, "open": OPEN}
+        for name, value, known in (
+            ("direction", direction, DIRECTIONS),
+            ("kind", kind, tuple(char)),
+        ):
+            if value not in known:
+                raise ValueError(f"{name} must be one of {known}, got {value!r}")
+        chars = self.chars.copy()
+        row, column = 2 * np.array(cell) + 1 + STEP[DIRECTIONS.index(direction)]
+        chars[row, column] = char[kind]
+        return parse_map(_to_text(chars))
 
     def add_door(self, cell: tuple[int, int], direction: str) -> Map:
         """Return the map with a door in the given edge of a cell."""
         return self.set_edge(cell, direction, "door")
-
-    def move_goal(self, old: tuple[int, int], new: tuple[int, int]) -> Map:
-        """Return the map with the goal of one room cell moved to another."""
-        places = []
-        for cell, name, wanted in ((old, "old", GOAL), (new, "new", ROOM)):
-            row, column = self._edge(cell, "N")
-            if self.chars[row + 1, column] != wanted:
-                what = (
-                    "hold a goal" if wanted == GOAL else "be a room cell without goal"
-                )
-                raise ValueError(f"{name} must {what}, got cell {cell}")
-            places.append((row + 1, column))
-        return self._redrawn({places[0]: ROOM, places[1]: GOAL})
-
-    def _redrawn(self, changes: dict[tuple[int, int], str]) -> Map:
-        chars = self.chars.copy()
-        for place, char in changes.items():
-            chars[place] = char
-        return parse_map(_to_text(chars))
 
 
 def parse_map(text: str) -> Map:
@@ -285,12 +257,8 @@ def _rectangle(lines: list[str], n_blank: int) -> np.ndarray:
             place = min(len(line), len(lines[0]))
             _refuse(n_blank + i, place, problem, "make all lines equally long")
     rows, columns = len(lines), len(lines[0])
-    if (
-        rows % 2 == 0
-        or columns % 2 == 0
-        or min(rows, columns) < 3
-        or rows * columns < 15
-    ):
+    even = rows % 2 == 0 or columns % 2 == 0
+    if even or min(rows, columns) < 3 or rows * columns < 15:
         raise ValueError(
             "H x W cells take 2H+1 rows and 2W+1 columns of text, two cells or "
             f"more; got {rows} rows and {columns} columns"

@@ -165,12 +165,17 @@ def as_array(name: str, value, dtype, ndim: int, shape=None) -> np.ndarray:
 def as_weights(name: str, value, shape=None) -> np.ndarray:
     """Return a copy of `value` (N, A) as floats; refuse negative, infinite and nan."""
     weights = as_array(name, value, np.float64, 2, shape)
-    bad = np.argwhere(~((weights >= 0) & (weights < np.inf)))
-    if len(bad):
-        row, action = bad[0]
-        got = f"at row {row}, action {action} it was {weights[row, action]}"
-        raise ValueError(f"{name} must be finite and not negative: {got}")
+    bad = ~((weights >= 0) & (weights < np.inf))
+    _refuse_first(bad, f"{name} must be finite and not negative", weights)
     return weights
+
+
+def check_choice(name: str, weights: np.ndarray) -> None:
+    """Refuse an abstract state, a row of (Z, A), that is left without an action."""
+    stuck = np.flatnonzero(~weights.any(axis=1))
+    if stuck.size:
+        rule = f"{name} must leave every abstract state an action"
+        raise ValueError(f"{rule}, but abstract state {stuck[0]} has none")
 
 
 def check_rows(prob: np.ndarray, name: str = "prob") -> None:

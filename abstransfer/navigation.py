@@ -7,9 +7,8 @@ Page 1 of the book teaches this module.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
@@ -119,7 +118,7 @@ def navigation_tasks(
 
     See Also
     --------
-    TaskParts : the same tasks a few at a time, where a union would be too large.
+    tasks_in_parts : the same tasks a few at a time, where a union would be too large.
 
     Examples
     --------
@@ -140,12 +139,7 @@ def navigation_tasks(
     seen = [look(maps[b], g) for b, g in zip(building, goal, strict=True)]
     neighbors, labels, distance, in_room = map(np.concatenate, zip(*seen, strict=True))
     rho = abstract_states(
-        labels,
-        distance,
-        in_room,
-        near=near,
-        almost_near=almost_near,
-        features=features,
+        labels, distance, in_room, near=near, almost_near=almost_near, features=features
     )
     first_state = np.arange(len(cell)) - cell
     neighbors = np.where(neighbors < 0, -1, neighbors + first_state[:, None])
@@ -168,48 +162,37 @@ def navigation_tasks(
     )
 
 
-@dataclass(frozen=True)
-class TaskParts(Sequence):
+def tasks_in_parts(maps, *, states=10_000, **options) -> Iterator[NavigationTasks]:
     """
-    The tasks of one map or of several, a few at a time: a sequence of unions.
+    Yield the tasks of one map or of several, a few at a time.
 
-    A part is made when it is asked for, and not kept: what a large building takes
-    is then the memory of one part.  The union of all is block-diagonal, so values
-    of the parts are values of the union.
+    Each part is a union of its own, closed when it has `states` states or more; a
+    part that is not kept is forgotten, so a large building takes the memory of one.
+    The union of all is block-diagonal: values of the parts are values of the union.
+    Options are those of :func:`navigation_tasks`.
 
-    Parameters
-    ----------
-    maps : Map or sequence of Map
-    options : dict, optional
-        Of :func:`navigation_tasks`, without ``keep``.
-    states : int, default 10,000
-        A part is closed when it has so many states or more.
-
-    Examples
-    --------
     >>> from abstransfer.maps import read_map
-    >>> parts = TaskParts(read_map("target"))
-    >>> [part.mdp.n_states for part in parts]
+    >>> [part.mdp.n_states for part in tasks_in_parts(read_map("target"))]
     [10260, 8640]
     """
+    maps, building, _ = _select_tasks(maps, None)
+    before = np.cumsum([0, *(maps[b].n_cells for b in building[:-1])])
+    cuts = np.flatnonzero(np.diff(before // states)) + 1
+    for keep in np.split(np.arange(len(building)), cuts):
+        yield navigation_tasks(maps, keep=keep, **options)
 
-    maps: Map | Sequence[Map]
-    options: Mapping = field(default_factory=dict)
-    states: int = 10_000
 
-    def __len__(self) -> int:
-        return len(self._tasks)
-
-    def __getitem__(self, i: int) -> NavigationTasks:
-        return navigation_tasks(self.maps, keep=self._tasks[i], **self.options)
-
-    @cached_property
-    def _tasks(self) -> list[np.ndarray]:
-        """The tasks of each part."""
-        maps, building, _ = _select_tasks(self.maps, None)
-        before = np.cumsum([0, *(maps[b].n_cells for b in building[:-1])])
-        last = np.flatnonzero(np.diff(before // self.states))
-        return np.split(np.arange(len(building)), last + 1)
+def parts_of(tasks, name: str = "tasks") -> Iterator[NavigationTasks]:
+    """Yield the parts of tasks, which may come in one; refuse what is no tasks."""
+    part = None
+    whole = isinstance(tasks, NavigationTasks) or not isinstance(tasks, Iterable)
+    for part in (tasks,) if whole else tasks:
+        if not isinstance(part, NavigationTasks):
+            kind = type(part).__name__
+            raise ValueError(f"{name} must be NavigationTasks, got {kind}")
+        yield part
+    if part is None:
+        raise ValueError(f"{name} must be NavigationTasks, got no part of any")
 
 
 def check_options(
@@ -240,7 +223,7 @@ def check_options(
 
 def _select_tasks(maps, keep) -> tuple[tuple[Map, ...], np.ndarray, np.ndarray]:
     """Return the maps, and building (N,) and goal cell (N,) of the tasks to keep."""
-    maps = (maps,) if isinstance(maps, Map) else tuple(maps)
+    maps = tuple(maps) if isinstance(maps, Iterable) else (maps,)
     if not maps or not all(isinstance(map_, Map) for map_ in maps):
         raise ValueError(f"maps must be one Map or several, got {maps!r}")
     building = np.repeat(np.arange(len(maps)), [len(map_.goals) for map_ in maps])

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .mdp import as_array, as_weights, check_choice
+
 
 def uniform_policy(mask: np.ndarray) -> np.ndarray:
     """
@@ -24,7 +26,7 @@ def uniform_policy(mask: np.ndarray) -> np.ndarray:
            [0. , 1. ],
            [0.5, 0.5]])
     """
-    mask = np.asarray(mask, dtype=bool)
+    mask = as_array("mask", mask, np.bool_, 2)
     weight = np.where(mask.any(axis=1, keepdims=True), mask, True).astype(float)
     return weight / weight.sum(axis=1, keepdims=True)
 
@@ -38,6 +40,8 @@ def restrict_policy(policy: np.ndarray, mask: np.ndarray) -> np.ndarray:
     >>> restrict_policy(np.array([[0.2, 0.2, 0.6]]), np.array([[True, True, False]]))
     array([[0.5, 0.5, 0. ]])
     """
+    policy = as_weights("policy", policy)
+    mask = as_array("mask", mask, np.bool_, 2, policy.shape)
     kept = np.where(mask, policy, 0.0)
     total = kept.sum(axis=1, keepdims=True)
     return np.where(
@@ -79,7 +83,9 @@ def ground(advice: np.ndarray, rho: np.ndarray, labels: np.ndarray) -> np.ndarra
     >>> ground(np.array([[0.5, 0.5]]), np.array([0]), np.array([[0, 0, 1, -1]]))
     array([[0.25, 0.25, 0.5 , 0.  ]])
     """
-    advice, labels = np.asarray(advice, dtype=float), np.asarray(labels)
+    advice = as_weights("advice", advice)
+    labels = as_array("labels", labels, np.int64, 2)
+    rho = check_rho(rho, len(labels), len(advice))
     if labels.max(initial=-1) >= advice.shape[1]:
         raise ValueError(f"labels must lie below {advice.shape[1]}, got {labels.max()}")
     carries = labels[:, :, None] == np.arange(advice.shape[1])  # (S, M, L)
@@ -98,8 +104,19 @@ def spoken(policy: np.ndarray, labels: np.ndarray, n_labels: int) -> np.ndarray:
     >>> spoken(np.array([[0.5, 0.0, 0.5, 0.0]]), np.array([[0, 0, 1, -1]]), 2)
     array([[0.5, 0.5]])
     """
-    carries = np.asarray(labels)[:, :, None] == np.arange(n_labels)
-    return (carries * np.asarray(policy)[:, :, None]).sum(axis=1)
+    policy = as_weights("policy", policy)
+    labels = as_array("labels", labels, np.int64, 2, policy.shape)
+    carries = labels[:, :, None] == np.arange(n_labels)
+    return (carries * policy[:, :, None]).sum(axis=1)
+
+
+def check_rho(rho: np.ndarray, n_states: int, n_abstract: int) -> np.ndarray:
+    """Return the abstract state of each state, (S,); refuse any outside 0..Z-1."""
+    rho = as_array("rho", rho, np.int64, 1, (n_states,))
+    outside = rho[(rho < 0) | (rho >= n_abstract)]
+    if outside.size:
+        raise ValueError(f"rho must lie in 0..{n_abstract - 1}, got {outside[0]}")
+    return rho
 
 
 def break_ties(optimal: np.ndarray, ties: str = "share", *, rng=None) -> np.ndarray:
@@ -136,7 +153,7 @@ def break_ties(optimal: np.ndarray, ties: str = "share", *, rng=None) -> np.ndar
     array([[1., 0., 0.],
            [0., 0., 0.]])
     """
-    optimal = np.asarray(optimal, dtype=bool)
+    optimal = as_array("optimal", optimal, np.bool_, 2)
     if ties == "share":
         return optimal / np.maximum(optimal.sum(axis=1, keepdims=True), 1)
     if ties == "first":
@@ -162,9 +179,11 @@ def beta_policy(abstract_policy: np.ndarray, beta: float) -> np.ndarray:
     >>> beta_policy(np.array([[0.75, 0.25, 0.0]]), 2)
     array([[0.9, 0.1, 0. ]])
     """
+    beta = as_array("beta", beta, np.float64, 0)
     if not beta >= 0:
         raise ValueError(f"beta must be at least 0, got {beta}")
-    p = np.asarray(abstract_policy, dtype=float)
+    p = as_weights("abstract_policy", abstract_policy)
+    check_choice("abstract_policy", p)
     ratio = p / p.max(axis=1, keepdims=True)  # in 0..1: no overflow, however large beta
     ratio[ratio > 1 - 1e-9] = 1.0  # sums of votes that differ by rounding tie
     weight = np.where(ratio > 0, ratio**beta, 0.0)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from ..navigation import NavigationTasks
+from ..navigation import NavigationTasks, parts_of
 from ..policies import break_ties
 from ..solvers import optimal_actions, optimal_values
 from .deduced import (
@@ -40,7 +40,7 @@ BUILDERS = ("nd", "prob", "grad")
 
 
 def abstract_policies(
-    tasks: NavigationTasks,
+    tasks: NavigationTasks | Iterable[NavigationTasks],
     builders: Iterable[str] = BUILDERS,
     *,
     ties: str = "share",
@@ -52,8 +52,9 @@ def abstract_policies(
 
     Parameters
     ----------
-    tasks : NavigationTasks
-        The solved tasks: one, those of a map, or those of several maps.
+    tasks : NavigationTasks, or an iterable of them
+        The solved tasks: one, those of a map, or those of several maps; or parts
+        of these, which are held and solved one after the other.
     builders : iterable of {"nd", "prob", "grad"}
     ties, rng
         As for :func:`~abstransfer.policies.break_ties`.
@@ -63,8 +64,8 @@ def abstract_policies(
     Raises
     ------
     ValueError
-        If a builder is unknown, or ``"grad"`` is asked for where actions are
-        masked and the features do not tell which ones.
+        If `tasks` are none, a builder is unknown, or ``"grad"`` is asked for where
+        actions are masked and the features do not tell which ones.
 
     Examples
     --------
@@ -84,18 +85,21 @@ def abstract_policies(
     for builder in builders:
         if builder not in BUILDERS:
             raise ValueError(f"builders must be among {BUILDERS}, got {builder!r}")
-    mdp, rho, possible = tasks.mdp, tasks.rho, tasks.possible
+    parts = list(parts_of(tasks))
+    mdps, possible = [part.mdp for part in parts], parts[0].possible
+    rho = np.concatenate([part.rho for part in parts])
     policies = {}
     if "nd" in builders or "prob" in builders:
-        optimal = optimal_actions(mdp, optimal_values(mdp))
-        votes = break_ties(optimal, ties, rng=rng)
+        optimal = [optimal_actions(mdp, optimal_values(mdp)) for mdp in mdps]
+        votes = break_ties(np.concatenate(optimal), ties, rng=rng)
         policies["nd"] = induce_nondeterministic(votes, rho, possible)
         policies["prob"] = induce_probabilistic(votes, rho, possible)
     if "grad" in builders:
-        if (possible[rho] & ~mdp.allowed)[~mdp.terminal].any():
+        allowed = [mdp.allowed | mdp.terminal[:, None] for mdp in mdps]
+        if (possible[rho] & ~np.concatenate(allowed)).any():
             raise ValueError(
                 'builders must not hold "grad" where the features do not tell which '
                 'actions are masked; make the tasks with unavailable="wait"'
             )
-        policies["grad"] = absprob_pi(mdp, rho, possible, progress=progress).policy
+        policies["grad"] = absprob_pi(mdps, rho, possible, progress=progress).policy
     return {builder: policies[builder] for builder in builders}

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mdp import MDP, check_policy
-from ..policies import uniform_policy
+from ..mdp import MDP, as_array, check_choice
+from ..policies import check_rho, uniform_policy
 from ..solvers import TIE, action_values, factorize, transition_matrix
 
 
@@ -40,7 +40,8 @@ def abstract_gradient(
 
     Parameters
     ----------
-    mdp : MDP
+    mdp : MDP, or a sequence of them
+        Blocks of one union, whose states follow one another: their sums add up.
     abstract_policy : ndarray of float, shape (Z, A)
     rho : ndarray of int, shape (S,)
     start : ndarray of float, shape (S,), optional
@@ -70,16 +71,25 @@ def abstract_gradient(
     >>> abstract_gradient(bump, np.array([[1.0, 0.0]]), rho, start)
     (-1.0, array([[ 0. , -0.5]]), array([1.]))
     """
-    start = _start(start, mdp)
-    transitions = transition_matrix(mdp, check_policy(abstract_policy[rho], mdp))
-    factors = factorize(mdp, transitions)
-    v = factors.solve(mdp.reward)
-    d = factors.solve(start, "T") * ~mdp.terminal
-    n_abstract = len(abstract_policy)
-    q = np.where(mdp.allowed, action_values(mdp, v), 0.0)
-    gradient = np.zeros((n_abstract, mdp.n_actions))
-    np.add.at(gradient, rho, mdp.gamma * d[:, None] * q)
-    return float(start @ v), gradient, np.bincount(rho, d, minlength=n_abstract)
+    blocks = (mdp,) if isinstance(mdp, MDP) else tuple(mdp)
+    ends = np.cumsum([block.n_states for block in blocks])
+    abstract_policy = as_array("policy", abstract_policy, np.float64, 2)
+    n_abstract, n_actions = abstract_policy.shape
+    start = _start(start, int(ends[-1]))
+    rho = check_rho(rho, len(start), n_abstract)
+    value, gradient, visits = 0.0, np.zeros(abstract_policy.shape), np.zeros(n_abstract)
+    parts = (np.split(array, ends[:-1]) for array in (rho, start))
+    for block, z, begin in zip(blocks, *parts, strict=True):
+        factors = factorize(block, transition_matrix(block, abstract_policy[z]))
+        v = factors.solve(block.reward)
+        d = factors.solve(begin, "T") * ~block.terminal
+        q = np.where(block.allowed, action_values(block, v), 0.0)
+        entry = z[:, None] * n_actions + np.arange(n_actions)
+        gain = np.bincount(entry.ravel(), (d[:, None] * q).ravel(), gradient.size)
+        value += float(begin @ v)
+        gradient += block.gamma * gain.reshape(gradient.shape)
+        visits += np.bincount(z, d, n_abstract)
+    return value, gradient, visits
 
 
 def absprob_pi(
@@ -102,8 +112,8 @@ def absprob_pi(
 
     Parameters
     ----------
-    mdp : MDP
-        One task, or the union of several.
+    mdp : MDP, or a sequence of them
+        One task, the union of several, or blocks of that union.
     rho : ndarray of int, shape (S,)
     possible : ndarray of bool, shape (Z, A)
         Actions that an abstract state may use.
@@ -143,10 +153,11 @@ def absprob_pi(
     >>> climb.policy
     array([[0.75, 0.25]])
     """
-    if iterations < 0:
+    if as_array("iterations", iterations, np.int64, 0) < 0:
         raise ValueError(f"iterations must not be negative, got {iterations}")
-    if not 0 <= softness <= 1:
+    if not 0 <= as_array("softness", softness, np.float64, 0) <= 1:
         raise ValueError(f"softness must lie in 0..1, got {softness}")
+    possible = _possible(possible)
     policy = _initial(initial, possible)
     n_abstract, n_actions = policy.shape
     history = []
@@ -191,12 +202,13 @@ def natural_ascent(
     ----------
     Kakade (2001), A natural policy gradient.
     """
-    if not 0 <= floor * np.shape(possible)[1] < 1:
+    possible = _possible(possible)
+    if not 0 <= as_array("floor", floor, np.float64, 0) * possible.shape[1] < 1:
         raise ValueError(f"floor must lie in 0..1/A, got {floor}")
     policy = _initial(initial, possible)
     value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
     history, step = [value], 0.1
-    for _ in range(iterations):
+    for _ in range(int(as_array("iterations", iterations, np.int64, 0))):
         mean_q = gradient / np.where(visits > 0, visits, 1)[:, None]
         used = np.where(policy > 0, mean_q, -np.inf)
         behind = used - used.max(axis=1, keepdims=True)  # <= 0: exp cannot overflow
@@ -226,36 +238,32 @@ def random_starts(possible: np.ndarray, n: int, *, rng) -> np.ndarray:
     >>> starts.tolist()
     [[[1.0, 0.0]], [[1.0, 0.0]]]
     """
-    weight = np.random.default_rng(rng).exponential(size=(n, *np.shape(possible)))
+    possible = _possible(possible)
+    n = int(as_array("n", n, np.int64, 0))
+    weight = np.random.default_rng(rng).exponential(size=(n, *possible.shape))
     weight *= possible
     return weight / weight.sum(axis=2, keepdims=True)
 
 
-def _start(start, mdp: MDP) -> np.ndarray:
+def _start(start, n_states: int) -> np.ndarray:
     """Return where episodes start, (S,); refuse what is no distribution."""
     if start is None:
-        return np.full(mdp.n_states, 1 / mdp.n_states)
-    start = np.asarray(start, dtype=float)
-    if start.shape != (mdp.n_states,):
-        raise ValueError(f"start must have shape {(mdp.n_states,)}, got {start.shape}")
+        return np.full(n_states, 1 / n_states)
+    start = as_array("start", start, np.float64, 1, (n_states,))
     if not (start >= 0).all() or abs(start.sum() - 1) > 1e-9:
         raise ValueError(f"start must be probabilities that sum to 1, got {start}")
     return start
 
 
-def _initial(initial, possible) -> np.ndarray:
+def _possible(possible) -> np.ndarray:
+    """Return which actions are possible, (Z, A); refuse a row without any."""
+    possible = as_array("possible", possible, np.bool_, 2)
+    check_choice("possible", possible)
+    return possible
+
+
+def _initial(initial, possible: np.ndarray) -> np.ndarray:
     """Return the policy (Z, A) to climb from; refuse what cannot be climbed."""
-    stuck = np.flatnonzero(~np.any(possible, axis=1))
-    if stuck.size:
-        raise ValueError(
-            "possible must leave every abstract state an action, "
-            f"but abstract state {stuck[0]} has none"
-        )
     if initial is None:
         return uniform_policy(possible)
-    initial = np.array(initial, dtype=float)
-    if initial.shape != np.shape(possible):
-        raise ValueError(
-            f"initial must have shape {np.shape(possible)}, got {initial.shape}"
-        )
-    return initial
+    return as_array("initial", initial, np.float64, 2, possible.shape)

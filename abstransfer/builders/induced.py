@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..policies import uniform_policy
+from ..mdp import as_array, as_weights
+from ..policies import check_rho, uniform_policy
 
 
 def induce_probabilistic(
@@ -85,25 +86,15 @@ def count_votes(policy: np.ndarray, rho: np.ndarray, n_abstract: int) -> np.ndar
     array([[0. , 0. ],
            [1.5, 0.5]])
     """
-    policy, rho = np.asarray(policy, dtype=float), np.asarray(rho)
-    if policy.ndim != 2 or rho.shape != policy.shape[:1]:
-        raise ValueError(
-            "policy must have shape (S, A) and rho shape (S,), "
-            f"got {policy.shape} and {rho.shape}"
-        )
-    outside = rho[(rho < 0) | (rho >= n_abstract)]
-    if outside.size:
-        raise ValueError(f"rho must lie in 0..{n_abstract - 1}, got {outside[0]}")
+    policy = as_weights("policy", policy)
+    rho = check_rho(rho, len(policy), n_abstract)
     votes = np.zeros((n_abstract, policy.shape[1]))
     np.add.at(votes, rho, policy)
     return votes
 
 
 def _normalized(votes: np.ndarray, fallback: np.ndarray) -> np.ndarray:
-    if np.shape(fallback) != votes.shape:
-        raise ValueError(
-            f"fallback must have shape {votes.shape}, got {np.shape(fallback)}"
-        )
+    fallback = as_array("fallback", fallback, np.bool_, 2, votes.shape)
     total = votes.sum(axis=1, keepdims=True)
     share = votes / np.where(total > 0, total, 1)
     return np.where(total > 0, share, uniform_policy(fallback))

@@ -408,21 +408,21 @@ def test_a_map_comes_back_from_another_process_equal(source):
 # Edits
 
 
-def test_every_inner_wall_of_a_building_can_be_toggled_twice_or_is_refused(source):
-    n_toggled = n_refused = 0
+def test_every_inner_wall_of_a_building_can_be_opened_and_closed_or_is_refused(source):
+    n_opened = n_refused = 0
     for cell, direction in np.argwhere(np.isin(source.edges, ["-", "|"])):
         place = divmod(int(cell), source.shape[1])
         try:
-            opened = source.toggle_wall(place, "NESW"[direction])
+            opened = source.set_edge(place, "NESW"[direction], "open")
         except ValueError:
             n_refused += 1
             continue
-        n_toggled += 1
+        n_opened += 1
         assert opened.neighbors[cell, direction] >= 0
-        assert opened.toggle_wall(place, "NESW"[direction]) == source
+        assert opened.set_edge(place, "NESW"[direction], "wall") == source
 
     # Four pairs of rooms share a wall of 3 edges without a door; 2 sides each.
-    assert n_toggled == 4 * 3 * 2
+    assert n_opened == 4 * 3 * 2
     assert n_refused > 0
 
 
@@ -430,15 +430,15 @@ def test_every_inner_wall_of_a_building_can_be_toggled_twice_or_is_refused(sourc
     ("cell", "direction", "row"),
     [((0, 0), "E", 2), ((0, 0), "S", 3), ((1, 1), "N", 3), ((1, 1), "W", 4)],
 )
-def test_a_toggled_wall_stands_where_it_was_asked_for(cell, direction, row):
+def test_a_new_wall_stands_where_it_was_asked_for(cell, direction, row):
     building = parse_map(BUILDING)
-    changed = building.toggle_wall(cell, direction)
+    changed = building.set_edge(cell, direction, "wall")
 
     before, after = BUILDING.split("\n"), str(changed).split("\n")
     column = 2 * cell[1] + 1 + {"E": 1, "W": -1}.get(direction, 0)
     assert after[row - 1][column] == ("|" if direction in "EW" else "-")
     assert before[row - 1][column] == " "
-    assert changed.toggle_wall(cell, direction) == building
+    assert changed.set_edge(cell, direction, "open") == building
     assert str(building) == BUILDING
 
 
@@ -475,66 +475,43 @@ def test_an_edge_is_the_same_from_both_sides(direction):
     opposite = dict(zip("NESW", "SWNE", strict=True))[direction]
     row, column = {"N": (0, 1), "E": (1, 2), "S": (2, 1), "W": (1, 0)}[direction]
 
-    changed = building.toggle_wall((1, 1), direction)
+    changed = building.set_edge((1, 1), direction, "wall")
     assert changed != building
-    assert changed == building.toggle_wall((row, column), opposite)
-
-
-def test_a_goal_can_be_moved_within_the_rooms():
-    building = parse_map(BUILDING)
-    changed = building.move_goal((0, 1), (0, 2))
-
-    assert str(changed) == edited(2, 4, " ", edited(2, 6, "*"))
-    assert changed.goals.tolist() == [2]
-    assert str(building) == BUILDING
-    assert changed.move_goal((0, 2), (0, 1)) == building
+    assert changed == building.set_edge((row, column), opposite, "wall")
 
 
 @pytest.mark.parametrize(
-    ("edit", "arguments", "said"),
+    ("arguments", "said"),
     [
-        ("move_goal", ((0, 0), (1, 1)), "old must hold a goal, got cell (0, 0)"),
+        (((-1, 0), "E", "wall"), "cell must lie within 3 x 3, got (-1, 0)"),
+        (((3, 0), "E", "wall"), "cell must lie within 3 x 3, got (3, 0)"),
+        ((4, "E", "wall"), "cell must lie within 3 x 3, got 4"),
+        ((("a", "b"), "E", "wall"), "cell must lie within 3 x 3, got ('a', 'b')"),
         (
-            "move_goal",
-            ((0, 1), (2, 1)),
-            "new must be a room cell without goal, got cell (2, 1)",
-        ),
-        (
-            "move_goal",
-            ((0, 1), (0, 1)),
-            "new must be a room cell without goal, got cell (0, 1)",
-        ),
-        ("move_goal", ((0, 1), (3, 0)), "cell must lie within 3 x 3, got (3, 0)"),
-        ("toggle_wall", ((-1, 0), "E"), "cell must lie within 3 x 3, got (-1, 0)"),
-        (
-            "toggle_wall",
-            ((0, 0), "east"),
+            ((0, 0), "east", "wall"),
             "direction must be one of ('N', 'E', 'S', 'W'), got 'east'",
         ),
         (
-            "set_edge",
             ((0, 0), "E", "window"),
             "kind must be one of ('wall', 'door', 'open'), got 'window'",
         ),
         (
-            "toggle_wall",
-            ((0, 1), "N"),
+            ((0, 1), "N", "open"),
             "row 1, column 4: the border has a hole; put a wall there",
         ),
         (
-            "toggle_wall",
-            ((2, 1), "N"),
+            ((2, 1), "N", "open"),
             "row 5, column 4: a room opens on the corridor; put a wall or a door there",
         ),
     ],
 )
-def test_an_edit_that_cannot_be_is_refused(edit, arguments, said):
-    assert message(getattr(parse_map(BUILDING), edit), *arguments) == said
+def test_an_edit_that_cannot_be_is_refused(arguments, said):
+    assert message(parse_map(BUILDING).set_edge, *arguments) == said
 
 
 def test_removing_a_wall_of_a_room_is_said_to_open_the_room(source):
     """The goal in the room is not to blame."""
-    assert message(source.toggle_wall, (3, 2), "E") == (
+    assert message(source.set_edge, (3, 2), "E", "open") == (
         "row 8, column 7: a room opens on the corridor; put a wall or a door there"
     )
 

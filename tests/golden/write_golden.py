@@ -21,7 +21,6 @@ from abstransfer.builders import abstract_policies
 from abstransfer.driving import PAPER
 from abstransfer.experiments.arms import ARMS, TAUS
 from abstransfer.learning import q_learning
-from abstransfer.maps import DIRECTIONS
 
 HERE = Path(__file__).parent
 SHIPPED = ("source", "target", "target_b", "target_c", "target_d")
@@ -150,42 +149,13 @@ def map_facts(map_: at.Map) -> dict:
     }
 
 
-def edits(maps: list[at.Map]) -> list[dict]:
-    """Return edits of maps, legal or not, with what they give."""
-    rng = np.random.default_rng(5)
-    calls = []
-    for map_ in maps:
-        for _ in range(3):
-            cell, other = rng.integers(-1, max(map_.shape) + 1, (2, 2)).tolist()
-            direction = str(rng.choice([*DIRECTIONS, "up"], p=[0.23] * 4 + [0.08]))
-            kind = str(rng.choice(["wall", "door", "open", "hole"]))
-            goal = [int(i) for i in divmod(map_.goals[0], map_.shape[1])]
-            calls += [
-                (map_, "set_edge", cell, direction, kind),
-                (map_, "toggle_wall", cell, direction),
-                (map_, "add_door", cell, direction),
-                (map_, "move_goal", goal, other),
-                (map_, "move_goal", cell, other),
-            ]
-    return [
-        {"map": str(map_), "call": name, "arguments": arguments}
-        | answer(getattr(map_, name), *[_cell(argument) for argument in arguments])
-        for map_, name, *arguments in calls
-    ]
-
-
-def _cell(argument):
-    return tuple(argument) if isinstance(argument, list) else argument
-
-
 def maps_golden() -> dict:
-    """Return maps, drawings that are refused, and edits."""
+    """Return maps, and drawings that are refused."""
     texts = dict.fromkeys((*DRAWN, *NOT_DRAWN, *random_texts()))
     return {
         "shipped": {name: map_facts(at.read_map(name)) for name in SHIPPED},
         "small": [map_facts(map_) for map_ in small_maps()],
         "parsed": [{"drawn": text} | answer(at.parse_map, text) for text in texts],
-        "edited": edits(small_maps()[1:9]),
     }
 
 
