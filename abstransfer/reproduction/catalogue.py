@@ -151,7 +151,7 @@ def _controls(target: str) -> tuple[Experiment, ...]:
     )
 
 
-EXPERIMENTS = (
+_FIRST_EDITION = (
     *(Experiment(f"{r}-target", 50, r) for r in ("goal", "cost")),
     *(
         Experiment(f"{r}-target_{x}", 20, r, f"target_{x}")
@@ -187,8 +187,7 @@ EXPERIMENTS = (
         taus=(1_000_000, 2_000_000, 3_500_000, 6_000_000, 9_000_000),
     ),
 )
-#: Experiments of the second edition whose results are not stored yet.
-PLANNED = (
+_SECOND_EDITION = (
     Experiment(
         "compass-target-tau",
         4,
@@ -207,6 +206,15 @@ PLANNED = (
         ),
     ),
     Experiment("study-own", 10, tuned_by="study-own-tau", given=_FOUR_ARMS),
+)
+#: Of the second edition, those whose results are stored.
+_STORED = ("controls-target",)
+EXPERIMENTS = _FIRST_EDITION + tuple(
+    experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
+)
+#: The others: written down before they were run, and not stored yet.
+PLANNED = tuple(
+    experiment for experiment in _SECOND_EDITION if experiment not in EXPERIMENTS
 )
 
 
