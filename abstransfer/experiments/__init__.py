@@ -35,6 +35,15 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "time_to_threshold",
         ],
         "tuning": ["tune", "tuned_arms"],
-        "diagnosis": ["arrival", "can_arrive", "notes_after"],
+        "diagnosis": [
+            "arrival",
+            "can_arrive",
+            "change_of_mind",
+            "judged",
+            "notes_after",
+            "ready",
+            "return_variation",
+            "stuck",
+        ],
     },
 )
