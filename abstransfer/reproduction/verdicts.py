@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..experiments.stats import Interval
 
 HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "undecided"
-IN_PART = "holds in part"
+IN_PART = "fails in part"
 
 
 class Finding(NamedTuple):
@@ -45,15 +45,16 @@ def combine(findings: Iterable[Finding]) -> str:
     """
     Return the verdict on a claim that says all of its findings at once.
 
-    Of the main findings: all hold - it holds; some hold and some fail - in
-    part; some fail, none holds - it does not hold; else undecided.  A condition
-    that does not hold makes "holds" into "holds in part".
+    It holds if all of them do.  If one fails, the claim fails: in part, if one of
+    the main findings holds.  Else it is undecided.
+
+    >>> effect = Interval(0.0, 0.0, 0.0)
+    >>> combine([Finding("", effect, "", HOLDS), Finding("", effect, "", FAILS)])
+    'fails in part'
     """
     findings = tuple(findings)
     main = [finding.verdict for finding in findings if finding.main]
-    if main and all(verdict == HOLDS for verdict in main):
-        conditions = [finding.verdict for finding in findings if not finding.main]
-        return HOLDS if all(v == HOLDS for v in conditions) else IN_PART
-    if FAILS in main:
+    verdicts = [finding.verdict for finding in findings]
+    if FAILS in verdicts:
         return IN_PART if HOLDS in main else FAILS
-    return UNDECIDED
+    return HOLDS if main and set(verdicts) == {HOLDS} else UNDECIDED

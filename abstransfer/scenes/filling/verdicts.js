@@ -7,7 +7,7 @@ export const [HOLDS, FAILS, UNDECIDED, IN_PART] = [
   "holds",
   "does not hold",
   "undecided",
-  "holds in part",
+  "fails in part",
 ];
 
 /**
@@ -22,11 +22,8 @@ function judge([, low, high], threshold, above) {
 }
 export function combine(findings) {
   const main = findings.filter((f) => f.main).map((f) => f.verdict);
-  if (main.every((verdict) => verdict === HOLDS)) {
-    return findings.every((f) => f.verdict === HOLDS) ? HOLDS : IN_PART;
-  }
-  if (main.includes(FAILS)) return main.includes(HOLDS) ? IN_PART : FAILS;
-  return UNDECIDED;
+  if (findings.some((f) => f.verdict === FAILS)) return main.includes(HOLDS) ? IN_PART : FAILS;
+  return findings.every((f) => f.verdict === HOLDS) ? HOLDS : UNDECIDED;
 }
 
 // The data of Python: arms, totals (arms, N), lives and partners (orders, N), claims.

@@ -51,7 +51,7 @@ class Filling(Scene):
     >>> scene
     Filling(claim='2', n=10)
     >>> scene.verdict()  # after 10 lives
-    'holds in part'
+    'fails in part'
     >>> scene.reading("2").settled  # lives from which on no order says otherwise
     4
     """
