@@ -393,7 +393,7 @@ mdp = random_mdp(3)
 setup = set_up(Settings(mdp, **options(mdp, "soft")))
 odd = np.nan, np.inf, -np.inf, np.finfo(float).max, np.finfo(float).min
 for plainly, values in itertools.product((True, False), itertools.combinations(odd, 2)):
-    together = Together(setup, [0, 1, 2])
+    together = Together(setup, [(rng, setup.settings.q0) for rng in range(3)])
     for run in together.runs:
         run.q[:] = np.random.default_rng(0).choice(values, run.q.shape)
         refresh(mdp.terminal, setup.tables, setup.rule, run.fast)
