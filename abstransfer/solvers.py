@@ -21,7 +21,7 @@ if TYPE_CHECKING:  # SciPy takes longer to load than all else: only where it is 
     from scipy.sparse import csr_array
 
 TIE = 1e-9  # actions whose values differ by less, in rewards, are equally good
-NEAR, SWEEPS = 1e-2, 1000  # sweep until no value moves by more, in rewards; at most
+NEAR, SWEEPS = 0.1, 1000  # sweep until no value moves by more, in rewards; at most
 
 
 def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
@@ -141,11 +141,14 @@ def value_iteration(mdp: MDP) -> Iterator[np.ndarray]:
     outcomes = _rows(
         prob[order], row, next_state[order], mdp.allowed.size, mdp.n_states
     )
-    barred = np.where(mdp.allowed.T, 0.0, -np.inf)
+    barred = None if mdp.allowed.all() else ~mdp.allowed.T
     v = mdp.reward
     while True:
         yield v
-        best = ((outcomes @ v).reshape(shape) + barred).max(axis=0)
+        q = (outcomes @ v).reshape(shape)
+        if barred is not None:
+            q[barred] = -np.inf
+        best = q.max(axis=0)
         v = mdp.reward + mdp.gamma * np.where(mdp.terminal, 0.0, best)
 
 

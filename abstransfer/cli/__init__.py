@@ -15,7 +15,8 @@ from functools import partial
 
 from ..driving import format_table1, table1
 from ..maps import read_map
-from ..navigation import navigation_tasks
+from ..navigation import tasks_in_parts
+from .cost import say_what_it_takes
 from .experiment import add_experiment, add_figures
 from .learn import add_learn
 
@@ -32,6 +33,9 @@ def main(argv: list[str] | None = None) -> int:
         return 0
     except (ValueError, OSError) as error:
         print(f"abstransfer: {error}", file=sys.stderr)
+        return 2
+    except MemoryError:
+        print("abstransfer: there is not enough memory for this", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("abstransfer: interrupted", file=sys.stderr)
@@ -107,8 +111,7 @@ def _add_table1(commands) -> None:
 def _run_table1(arguments) -> int:
     from tqdm import tqdm
 
-    tasks = partial(
-        navigation_tasks,
+    options = dict(
         success=arguments.success,
         gamma=arguments.gamma,
         actions=arguments.actions,
@@ -116,12 +119,22 @@ def _run_table1(arguments) -> int:
         near=arguments.near,
         almost_near=arguments.almost_near,
     )
-    source = tasks(read_map(arguments.source))
-    target = None if arguments.source_only else tasks(read_map(arguments.target))
-    progress = partial(
-        tqdm, desc="AbsProb-PI", unit="iteration", leave=False, disable=None
+    source = read_map(arguments.source)
+    target = None if arguments.source_only else read_map(arguments.target)
+    say_what_it_takes(source, target)
+    bar = partial(tqdm, leave=False, disable=None)
+
+    def parts(map_):
+        with bar(desc="tasks", unit="goal", total=len(map_.goals)) as goals:
+            for part in tasks_in_parts(map_, **options):
+                yield part
+                goals.update(len(part.goal))
+
+    result = table1(
+        list(tasks_in_parts(source, **options)),
+        None if target is None else parts(target),
+        progress=partial(bar, desc="AbsProb-PI", unit="iteration"),
     )
-    result = table1(source, target, progress=progress)
     if arguments.json:
         print(json.dumps(result, indent=2))
     else:
