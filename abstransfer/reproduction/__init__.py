@@ -6,10 +6,10 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["figures", "ledger"],
+    submodules=["figures"],
     submod_attrs={
         "catalogue": ["BETAS", "EXPERIMENTS", "SHARES", "make_guides", "reproduce"],
-        "claims": ["CLAIMS"],
+        "claims": ["CLAIMS", "ledger"],
         "verdicts": ["combine", "judge"],
         "tables": ["measures_table", "to_markdown", "totals_table"],
     },

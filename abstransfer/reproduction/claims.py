@@ -1,28 +1,25 @@
 """
-The paper's claims as data: its words, and the test in words and as a function.
+The paper's claims as data, and the ledger: each of them judged on results.
 
-Page 9 of the book teaches this module.
+A claim has the paper's words, and its test in words and as findings.  How a
+finding is measured and judged stands in ``verdicts``.  Page 9 of the book
+teaches this module.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from ..driving import BUILDERS
+from ..experiments.arms import STRATEGIES
 from ..experiments.results import Results
-from .findings import (
-    all_beat_q_learning,
-    critical_point_exists,
-    earlier_is_better,
-    hard_beats_epsilon_greedy,
-    nd_is_best,
-    no_better_than_random,
-    random_is_late_but_competes,
-    soft_beats_hard,
-)
-from .verdicts import Finding
+from .verdicts import ABSTRACT, Finding, combine
+
+MARGIN = 0.01  # "no better": by less than 1 %, about the spread between runs
+COMPETES = 0.05  # "competes with the best": at most 5 % below
+GUIDED = ("rand-hard", "rand-soft", *ABSTRACT)
 
 
 class Claim(NamedTuple):
@@ -32,7 +29,15 @@ class Claim(NamedTuple):
     title: str
     quote: str  # the paper's words
     test: str  # in words
-    findings: Callable[[Results, np.random.Generator], Iterable[Finding]]
+    findings: tuple[Finding, ...]  # the same, not yet measured
+
+
+class Entry(NamedTuple):
+    """A claim, judged on one experiment."""
+
+    claim: Claim
+    findings: tuple[Finding, ...]
+    verdict: str
 
 
 CLAIMS = (
@@ -44,7 +49,17 @@ CLAIMS = (
         "was used for transfer learning",
         "ND reaches more goals than random, Prob and Grad, under either strategy; on "
         "condition that it drives worse than Prob and Grad.",
-        nd_is_best,
+        (
+            *(
+                Finding("goals", f"nd-{strategy}", f"{other}-{strategy}")
+                for strategy in STRATEGIES
+                for other in ("rand", "prob", "grad")
+            ),
+            *(
+                Finding("driving", other, "nd", main=False)
+                for other in ("prob", "grad")
+            ),
+        ),
     ),
     Claim(
         "2",
@@ -53,7 +68,10 @@ CLAIMS = (
         "but not for random policy",
         "Soft reaches more goals than hard for ND, Prob and Grad; on condition that "
         "for random it does not reach 1 % more.",
-        soft_beats_hard,
+        (
+            *(Finding("goals", f"{p}-soft", f"{p}-hard") for p in BUILDERS),
+            Finding("goals", "rand-soft", "rand-hard", MARGIN, above=False, main=False),
+        ),
     ),
     Claim(
         "3",
@@ -63,7 +81,7 @@ CLAIMS = (
         "the hard strategy was a better option",
         "Each hard arm, random first of all, reaches more goals than Q-learning, "
         "which is eps-greedy from the first step.",
-        hard_beats_epsilon_greedy,
+        tuple(Finding("goals", f"{p}-hard", "none") for p in ("rand", *BUILDERS)),
     ),
     Claim(
         "4",
@@ -72,7 +90,11 @@ CLAIMS = (
         "random policy for transfer learning",
         "Neither, under either strategy, reaches 1 % more goals than random does "
         "under its better strategy, the hard one.",
-        no_better_than_random,
+        tuple(
+            Finding("goals", f"{p}-{strategy}", "rand-hard", MARGIN, above=False)
+            for p in ("grad", "prob")
+            for strategy in STRATEGIES
+        ),
     ),
     Claim(
         "5",
@@ -80,7 +102,7 @@ CLAIMS = (
         "all of the policies transfered proved to be better than Q-Learning with "
         "fixed eps",
         "Each of the eight arms reaches more goals than Q-learning.",
-        all_beat_q_learning,
+        tuple(Finding("goals", arm, "none") for arm in GUIDED),
     ),
     Claim(
         "6a",
@@ -89,7 +111,7 @@ CLAIMS = (
         "point, when performance improves faster",
         "In each arm the steepest rise, found in half of the runs and measured in the "
         "others, is over twice that of a steady climb.",
-        critical_point_exists,
+        tuple(Finding("rise", arm) for arm in ("none", *GUIDED)),
     ),
     Claim(
         "6b",
@@ -98,7 +120,7 @@ CLAIMS = (
         "performance in the final steps of the experiment",
         "Over the seven arms without random, critical point and final level are "
         "negatively rank-correlated.",
-        earlier_is_better,
+        (Finding("order", above=False),),
     ),
     Claim(
         "6c",
@@ -107,6 +129,33 @@ CLAIMS = (
         "final performance competes with the best final performance",
         "Random ends at most 5 % below the abstract arm that ends best; on condition "
         "that its critical point is later than theirs under the same strategy.",
-        random_is_late_but_competes,
+        (
+            *(Finding("end", f"rand-{s}", threshold=-COMPETES) for s in STRATEGIES),
+            *(
+                Finding("delay", f"rand-{strategy}", f"{p}-{strategy}", main=False)
+                for strategy in STRATEGIES
+                for p in BUILDERS
+            ),
+        ),
     ),
 )
+
+
+def ledger(results: Results, *, rng=0) -> tuple[Entry, ...]:
+    """
+    Return all claims, judged on the results of the nine arms.
+
+    Parameters
+    ----------
+    results : Results
+        From :func:`~abstransfer.experiments.run.run_experiment` with ARMS, or with
+        the same arms and other tau.
+    rng : int, SeedSequence or Generator
+        Draws the resamples of the intervals.
+    """
+    rng = np.random.default_rng(rng)
+    entries = []
+    for claim in CLAIMS:
+        findings = tuple(finding.measured(results, rng) for finding in claim.findings)
+        entries.append(Entry(claim, findings, combine(findings)))
+    return tuple(entries)

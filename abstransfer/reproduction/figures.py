@@ -16,7 +16,7 @@ from ..experiments.results import RECORD, Results, load_results
 from ..experiments.stats import mean_interval
 from ..experiments.tuning import tune
 from ..plotting import figure, plot_boxes, plot_curves, plot_tau
-from .ledger import Entry, ledger
+from .claims import Entry, ledger
 from .tables import (
     curves_table,
     experiment_name,
@@ -187,8 +187,8 @@ def effect_text(finding) -> str:
     Return an effect with its interval, in its unit.
 
     >>> from abstransfer.experiments.stats import Interval
-    >>> from abstransfer.reproduction.verdicts import HOLDS, Finding
-    >>> effect_text(Finding("", Interval(0.25, 0.24, 0.267), "ratio", HOLDS))
+    >>> from abstransfer.reproduction.verdicts import Finding
+    >>> effect_text(Finding("goals", effect=Interval(0.25, 0.24, 0.267)))
     '+25.0 % [24.0, 26.7]'
     """
     factor, unit = SCALES.get(finding.unit, (1, f" {finding.unit}".rstrip()))

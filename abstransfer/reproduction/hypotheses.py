@@ -16,7 +16,7 @@ import numpy as np
 
 from ..experiments.results import Results
 from ..experiments.stats import t_interval
-from .verdicts import Finding, judge
+from .verdicts import Finding
 
 ND, PROB = "nd", "prob"
 
@@ -85,8 +85,8 @@ def judge_operations(results: Results) -> tuple[Finding, ...]:
     for hypothesis in OPERATED:
         if hypothesis.weights.keys() <= there:
             effect = t_interval(contrast(results, hypothesis.weights))
-            text = f"{hypothesis.key} {hypothesis.text}"
-            findings.append(Finding(text, effect, "goals", judge(effect, 0.0)))
+            words = hypothesis.key, hypothesis.text
+            findings.append(Finding("contrast", *words, effect=effect))
     return tuple(findings)
 
 

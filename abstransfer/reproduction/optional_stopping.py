@@ -8,7 +8,6 @@ twice, where nothing is to be found.  Page 9 of the book teaches this module.
 
 from __future__ import annotations
 
-import re
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -17,31 +16,12 @@ import numpy as np
 from ..experiments.results import Results
 from ..experiments.stats import LEVEL, RESAMPLES, Interval
 from .claims import CLAIMS
-from .findings import MARGIN
-from .verdicts import UNDECIDED, Finding, combine, judge
+from .verdicts import UNDECIDED, Finding, combine
 
 FIRST_LOOK = 5  # as in exercise 3 of page 9: before, intervals are far too narrow
 N_ORDERS = 5  # as run, and four shuffles
 SAME = "same"
 KEYS = (*(claim.key for claim in CLAIMS[:5]), SAME)
-
-
-class Comparison(NamedTuple):
-    """What one finding rests on: two arms, or a fixed effect."""
-
-    text: str
-    a: str
-    b: str
-    threshold: float
-    above: bool  # whether the claim is that the effect is above the threshold
-    main: bool
-    fixed: float | None = None  # an exact effect, which no life changes
-
-    def finding(self, effect: Interval) -> Finding:
-        """Return the finding for an effect."""
-        verdict = judge(effect, self.threshold, self.above)
-        unit = "ratio" if self.fixed is None else "reward"
-        return Finding(self.text, effect, unit, verdict, self.main)
 
 
 class Stops(NamedTuple):
@@ -53,26 +33,20 @@ class Stops(NamedTuple):
     wrong: int  # how many of them are signed against all lives
 
 
-def comparisons(results: Results, key: str) -> tuple[Comparison, ...]:
-    """Return what a claim rests on, (K,); `key` is one of `KEYS`."""
+def comparisons(results: Results, key: str) -> tuple[Finding, ...]:
+    """
+    Return what a claim rests on, (K,); `key` is one of `KEYS`.
+
+    An effect that no life changes is measured, gains over lives are not yet.
+    """
     if key not in KEYS:
         raise ValueError(f"key must be one of {', '.join(KEYS)}, got {key!r}")
     if key == SAME:
-        return tuple(
-            Comparison(f"{name} over itself", name, name, 0.0, True, True)
-            for name, *_ in results.arms
-        )
-    one = results._replace(goals=results.goals[:, :1])  # quick: effects are not read
-    found = []
-    for text, effect, unit, _, main in CLAIMS[KEYS.index(key)].findings(one, 0):
-        above = " no better than " not in text
-        threshold = 0.0 if above else MARGIN
-        if unit == "ratio":
-            a, b = re.split(" over | no better than ", text)
-            found.append(Comparison(text, a, b, threshold, above, main))
-        else:
-            found.append(Comparison(text, "", "", 0.0, True, main, effect.estimate))
-    return tuple(found)
+        return tuple(Finding("goals", arm.name, arm.name) for arm in results.arms)
+    return tuple(
+        finding if finding.kind == "goals" else finding.measured(results, None)
+        for finding in CLAIMS[KEYS.index(key)].findings
+    )
 
 
 def orders(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
@@ -123,18 +97,18 @@ def _times(n: int) -> np.ndarray:
 def tracks(results: Results, key: str) -> list[list[str]]:
     """Return verdicts after 2..N lives by order; for "same" by order and arm."""
     compared = comparisons(results, key)
+    pairs = [finding for finding in compared if finding.kind == "goals"]
+    exact = [finding for finding in compared if finding.kind != "goals"]
     lives, partners = orders(results.goals.shape[1])
     found = []
     for first, second in zip(lives, partners if key == SAME else lives, strict=True):
-        pairs = [c for c in compared if c.fixed is None]
-        a = np.stack([results.totals(c.a)[first] for c in pairs], axis=1)
-        b = np.stack([results.totals(c.b)[second] for c in pairs], axis=1)
+        a = np.stack([results.totals(pair.a)[first] for pair in pairs], axis=1)
+        b = np.stack([results.totals(pair.b)[second] for pair in pairs], axis=1)
         ends = np.stack(running_gains(a, b), axis=-1)  # (N - 1, K, 3)
         findings = [
-            [c.finding(Interval(*effect)) for c, effect in zip(pairs, row, strict=True)]
+            [p._replace(effect=Interval(*e)) for p, e in zip(pairs, row, strict=True)]
             for row in ends.tolist()
         ]
-        exact = [c.finding(Interval(*[c.fixed] * 3)) for c in compared[len(pairs) :]]
         if key == SAME:
             found += [[f.verdict for f in arm] for arm in zip(*findings, strict=True)]
         else:

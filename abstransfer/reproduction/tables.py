@@ -28,7 +28,7 @@ from ..experiments.stats import (
     relative_gain,
 )
 from ..experiments.tuning import Tuning
-from .ledger import Entry
+from .claims import Entry
 
 MILLION = 1_000_000
 

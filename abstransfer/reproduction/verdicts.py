@@ -1,28 +1,83 @@
 """
-From intervals to verdicts: the only way in which the ledger decides.
+From effects to verdicts: the only way in which the ledger decides.
 
-Page 9 of the book teaches this module.
+A finding is data: an effect of one arm over another, and the side of a
+threshold on which the paper sees it.  Its verdict follows from the interval of
+the effect alone.  Differences are of runs with the same seed, gains are shares
+of the other arm's goals.  Page 9 of the book teaches this module.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from ..experiments.stats import Interval
+import numpy as np
+
+from ..driving import BUILDERS
+from ..experiments.arms import STRATEGIES
+from ..experiments.curves import SMOOTH, asymptotic_level, critical_point, rises
+from ..experiments.results import Results
+from ..experiments.stats import (
+    LEVEL,
+    RESAMPLES,
+    Interval,
+    mean_interval,
+    paired_difference,
+    relative_gain,
+)
 
 HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "undecided"
 IN_PART = "fails in part"
+ABSTRACT = tuple(f"{policy}-{s}" for policy in BUILDERS for s in STRATEGIES)
+UNKNOWN = Interval(np.nan, np.nan, np.nan)
 
 
 class Finding(NamedTuple):
     """One effect, and whether it is what the paper says."""
 
-    text: str  # what the effect is of
-    effect: Interval
-    unit: str  # "ratio" (0.1 is 10 %), "goals per window", "steps", "reward", ""
-    verdict: str  # HOLDS, FAILS or UNDECIDED
+    kind: str  # of the effect: a name in KINDS
+    a: str = ""  # an arm, or a policy
+    b: str = ""  # what it is compared with
+    threshold: float = 0.0
+    above: bool = True  # the side of the threshold on which the paper sees the effect
     main: bool = True  # else a condition: it can lower the verdict, not raise it
+    effect: Interval = UNKNOWN
+
+    @property
+    def text(self) -> str:
+        """
+        What the effect is of, in words.
+
+        >>> Finding("goals", "rand-soft", "rand-hard", 0.01, above=False).text
+        'rand-soft no better than rand-hard'
+        """
+        over = "over" if self.above else "no better than"
+        b = "itself" if self.b == self.a else self.b
+        return KINDS[self.kind].words.format(a=self.a, b=b, over=over)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the effect: "ratio" (0.1 is 10 %), "steps", ..., or ""."""
+        return KINDS[self.kind].unit
+
+    @property
+    def verdict(self) -> str:
+        """HOLDS, FAILS or UNDECIDED."""
+        return judge(self.effect, self.threshold, self.above)
+
+    def measured(self, results: Results, rng) -> Finding:
+        """Return the finding with the effect that results show."""
+        measure = KINDS[self.kind].effect
+        return self._replace(effect=measure(results, self.a, self.b, rng))
+
+
+class Kind(NamedTuple):
+    """A kind of effect."""
+
+    words: str
+    unit: str
+    effect: Callable[[Results, str, str, np.random.Generator], Interval] | None
 
 
 def judge(effect: Interval, threshold: float, above: bool = True) -> str:
@@ -48,8 +103,8 @@ def combine(findings: Iterable[Finding]) -> str:
     It holds if all of them do.  If one fails, the claim fails: in part, if one of
     the main findings holds.  Else it is undecided.
 
-    >>> effect = Interval(0.0, 0.0, 0.0)
-    >>> combine([Finding("", effect, "", HOLDS), Finding("", effect, "", FAILS)])
+    >>> more, less = Interval(0.2, 0.1, 0.3), Interval(-0.2, -0.3, -0.1)
+    >>> combine(Finding("goals", effect=effect) for effect in (more, less))
     'fails in part'
     """
     findings = tuple(findings)
@@ -58,3 +113,76 @@ def combine(findings: Iterable[Finding]) -> str:
     if FAILS in verdicts:
         return IN_PART if HOLDS in main else FAILS
     return HOLDS if main and set(verdicts) == {HOLDS} else UNDECIDED
+
+
+def _goals(results, a, b, rng) -> Interval:
+    return relative_gain(results.totals(a), results.totals(b), rng=rng)
+
+
+def _executed(results, a, b, rng) -> Interval:
+    value = results.record["executed"]  # exact, so the interval is a point
+    return Interval(*[value[a] - value[b]] * 3)
+
+
+def _rise(results, arm, _, rng) -> Interval:
+    """By how much the steepest rise exceeds twice that of a steady climb."""
+    # Found in one half of the runs and measured in the other: the steepest
+    # rise of noise would else look like one.
+    curves = results.curves(arm)
+    found, measured = curves[::2], curves[1::2]
+    if not len(measured):
+        return UNKNOWN
+    place = critical_point(found.mean(axis=0))
+    rise = rises(measured)[:, place - SMOOTH]
+    climb = asymptotic_level(measured) - measured[:, :SMOOTH].mean(axis=1)
+    steady = climb * SMOOTH / (curves.shape[1] - SMOOTH)
+    return paired_difference(rise, 2 * steady, rng=rng)
+
+
+def _order(results, _, __, rng) -> Interval:
+    """Return Kendall's tau-a of critical point and final level over the arms."""
+    curves = [results.curves(arm) for arm in ("none", *ABSTRACT)]
+    when, level = (
+        np.stack(list(map(measure, curves)))
+        for measure in (critical_point, asymptotic_level)
+    )
+    n_runs = when.shape[1]
+    drawn = rng.integers(0, n_runs, (RESAMPLES, n_runs))
+    order = _concordance(when[:, drawn].mean(axis=2), level[:, drawn].mean(axis=2))
+    ends = (np.nan, np.nan)
+    if n_runs > 1:
+        ends = np.quantile(order, [(1 - LEVEL) / 2, (1 + LEVEL) / 2]).tolist()
+    all_runs = _concordance(when.mean(axis=1), level.mean(axis=1))
+    return Interval(float(all_runs), *ends)
+
+
+def _concordance(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return Kendall's tau-a of x and y over their first axis."""
+    first, second = np.triu_indices(len(x), 1)
+    signs = np.sign(x[first] - x[second]) * np.sign(y[first] - y[second])
+    return signs.mean(axis=0)
+
+
+def _end(results, arm, _, rng) -> Interval:
+    level = {name: asymptotic_level(results.curves(name)) for name in (arm, *ABSTRACT)}
+    best = max(ABSTRACT, key=lambda name: level[name].mean())
+    return relative_gain(level[arm], level[best], rng=rng)
+
+
+def _delay(results, a, b, rng) -> Interval:
+    window = results.record["parameters"]["window"]
+    when, before = (critical_point(results.curves(arm)) * window for arm in (a, b))
+    return mean_interval(when - before, rng=rng)
+
+
+KINDS = {
+    "goals": Kind("{a} {over} {b}", "ratio", _goals),
+    "driving": Kind("{a} over {b}, executed without learning", "reward", _executed),
+    "rise": Kind("{a}", "goals per window", _rise),
+    "order": Kind(
+        "rank correlation of critical point and final level, 7 arms", "", _order
+    ),
+    "end": Kind("{a} over the abstract arm that ends best", "ratio", _end),
+    "delay": Kind("critical point of {a} after {b}", "steps", _delay),
+    "contrast": Kind("{a} {b}", "goals", None),  # of several arms: see `hypotheses`
+}

@@ -323,7 +323,7 @@ def test_only_what_needs_them_imports_numba_and_matplotlib():
         "import sys\n"
         "from abstransfer.cli import main\n"
         "import abstransfer.experiments.run\n"
-        "import abstransfer.reproduction.ledger, abstransfer.reproduction.figures\n"
+        "import abstransfer.reproduction.claims, abstransfer.reproduction.figures\n"
         "try: main(['experiment', '--help'])\n"
         "except SystemExit: pass\n"
         "slow = {'numba', 'matplotlib', 'tqdm', 'distributed'} & set(sys.modules)\n"

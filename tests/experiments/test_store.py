@@ -305,6 +305,6 @@ class Meddled(Folder):
 N = int(os.environ.get("DISTURBANCES", 0))
 for machine in (Folder, Meddled):
     machine.TestCase.settings = settings(
-        max_examples=N or 20, stateful_step_count=20, deadline=None, derandomize=not N
+        max_examples=N or 40, stateful_step_count=20, deadline=None, derandomize=not N
     )
 TestFolder, TestMeddled = Folder.TestCase, Meddled.TestCase

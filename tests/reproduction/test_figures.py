@@ -18,15 +18,14 @@ from abstransfer.experiments.results import (
     stored_results,
 )
 from abstransfer.experiments.stats import Interval
-from abstransfer.reproduction.claims import CLAIMS
+from abstransfer.reproduction.claims import CLAIMS, ledger
 from abstransfer.reproduction.figures import (
     effect_text,
     findings_table,
     make_figures,
     verdicts_table,
 )
-from abstransfer.reproduction.ledger import ledger
-from abstransfer.reproduction.verdicts import HOLDS, Finding
+from abstransfer.reproduction.verdicts import KINDS, Finding
 
 SCALE = Scale(30_000_000, 1_000_000)
 EXECUTED = {"rand": -97.0, "nd": -81.0, "prob": -70.0, "grad": -71.0}
@@ -216,4 +215,5 @@ def test_no_results_is_an_error_that_says_how_to_make_some(tmp_path):
     ],
 )
 def test_an_effect_is_printed_in_its_unit(effect, unit, text):
-    assert effect_text(Finding("", Interval(*effect), unit, HOLDS)) == text
+    kind = next(name for name, kind in KINDS.items() if kind.unit == unit)
+    assert effect_text(Finding(kind, effect=Interval(*effect))) == text

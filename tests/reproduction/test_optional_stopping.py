@@ -5,7 +5,7 @@ import pytest
 
 from abstransfer.experiments import stats
 from abstransfer.experiments.results import read_results
-from abstransfer.reproduction.ledger import ledger
+from abstransfer.reproduction.claims import ledger
 from abstransfer.reproduction.optional_stopping import (
     KEYS,
     SAME,

@@ -18,6 +18,7 @@ from ...reproduction.optional_stopping import (
     read_along,
     tracks,
 )
+from ...reproduction.verdicts import Finding
 from ..base import Scene
 
 RUNS = 50
@@ -107,11 +108,22 @@ def _data(name: str) -> dict:
         "claims": {
             key: {
                 "title": titles.get(key, ""),
-                "compared": [list(c) for c in comparisons(results, key)],
+                "compared": [_compared(f) for f in comparisons(results, key)],
             }
             for key in KEYS
         },
     }
+
+
+def _compared(finding: Finding) -> list:
+    """Return text, arms, threshold, side, role, and an effect no life changes."""
+    pair, fixed = (finding.a, finding.b), None
+    if finding.kind != "goals":
+        pair, fixed = ("", ""), finding.effect.estimate
+    return [
+        *(finding.text, *pair, finding.threshold),
+        *(finding.above, finding.main, fixed),
+    ]
 
 
 @lru_cache(maxsize=16)

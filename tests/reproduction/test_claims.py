@@ -6,8 +6,7 @@ import pytest
 from abstransfer.experiments.arms import ARMS
 from abstransfer.experiments.results import Results
 from abstransfer.experiments.stats import Interval
-from abstransfer.reproduction.claims import CLAIMS
-from abstransfer.reproduction.ledger import ledger
+from abstransfer.reproduction.claims import CLAIMS, ledger
 from abstransfer.reproduction.verdicts import (
     FAILS,
     HOLDS,
@@ -86,9 +85,11 @@ def test_a_finding_is_judged_by_the_ends_of_its_interval(low, high, above, expec
     ],
 )
 def test_findings_combine_into_one_verdict(main, conditions, expected):
-    effect = Interval(0.0, 0.0, 0.0)
-    findings = [Finding("", effect, "", v) for v in main]
-    findings += [Finding("", effect, "", v, main=False) for v in conditions]
+    effects = {HOLDS: (1, 1, 1), FAILS: (-1, -1, -1), UNDECIDED: (0, -1, 1)}
+    findings = [Finding("goals", effect=Interval(*effects[v])) for v in main]
+    findings += [
+        Finding("goals", main=False, effect=Interval(*effects[v])) for v in conditions
+    ]
 
     assert combine(findings) == expected
 
