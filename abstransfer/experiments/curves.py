@@ -8,8 +8,7 @@ Pages 8 and 9 of the book teach this module.
 References
 ----------
 Taylor & Stone (2009), Transfer Learning for Reinforcement Learning Domains:
-A Survey, section 2.1: jumpstart, asymptotic performance, transfer ratio, time
-to threshold.
+A Survey, section 2.1: jumpstart, asymptotic performance, time to threshold.
 """
 
 from __future__ import annotations
@@ -45,18 +44,6 @@ def asymptotic_level(curves: np.ndarray, n: int = SMOOTH) -> np.ndarray:
     return np.asarray(curves)[..., -n:].mean(axis=-1)
 
 
-def transfer_ratio(curves: np.ndarray, baseline: np.ndarray) -> np.ndarray:
-    """
-    Return all goals of a run over all goals of its baseline; nan for 0 / 0.
-
-    >>> transfer_ratio(np.array([[4, 8]]), np.array([[2, 6]]))
-    array([1.5])
-    """
-    total = np.sum(curves, axis=-1), np.sum(baseline, axis=-1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.divide(*total)
-
-
 def time_to_threshold(
     curves: np.ndarray, threshold: float, *, window: int
 ) -> np.ndarray:
@@ -89,25 +76,6 @@ def critical_point(curves: np.ndarray, n: int = SMOOTH) -> np.ndarray:
     5
     """
     return rises(curves, n).argmax(axis=-1) + n
-
-
-def sharpness(curves: np.ndarray, n: int = SMOOTH) -> np.ndarray:
-    """
-    Return the rise at the critical point over that of a steady climb.
-
-    A straight line has 1; a jump in the middle of nothing (B - n) / n.  nan
-    where the end of a curve is not above its start.
-
-    >>> sharpness(np.arange(12.0))
-    1.0
-    >>> sharpness(np.repeat([0.0, 1.0], 6))
-    3.0
-    """
-    curves = np.asarray(curves, dtype=float)
-    climb = asymptotic_level(curves, n) - curves[..., :n].mean(axis=-1)
-    steady = climb * n / (curves.shape[-1] - n)
-    ratio = rises(curves, n).max(axis=-1) / np.where(steady > 0, steady, np.nan)
-    return ratio if ratio.ndim else float(ratio)
 
 
 def rises(curves: np.ndarray, n: int = SMOOTH) -> np.ndarray:

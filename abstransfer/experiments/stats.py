@@ -30,9 +30,7 @@ class Interval(NamedTuple):
     high: float | np.ndarray
 
 
-def bootstrap(
-    statistic: Callable, *samples: np.ndarray, rng, level: float = LEVEL
-) -> Interval:
+def bootstrap(statistic: Callable, *samples: np.ndarray, rng) -> Interval:
     """
     Return a statistic of N runs with its percentile bootstrap interval.
 
@@ -45,7 +43,6 @@ def bootstrap(
     *samples : ndarray of float, shape (N, ...)
         All with the same runs.
     rng : int, SeedSequence or Generator
-    level : float, default 0.95
 
     Returns
     -------
@@ -87,14 +84,14 @@ def bootstrap(
                 paired=len(samples) > 1,
                 axis=0,
                 vectorized=True,
-                confidence_level=level,
+                confidence_level=LEVEL,
                 method="percentile",
                 random_state=np.random.default_rng(rng),
             ).confidence_interval
     return Interval(*(x if x.ndim else float(x) for x in (estimate, low, high)))
 
 
-def t_interval(x: np.ndarray, *, level: float = LEVEL) -> Interval:
+def t_interval(x: np.ndarray) -> Interval:
     """
     Return the mean over runs of x (N,) or (N, B), with Student's interval.
 
@@ -118,12 +115,12 @@ def t_interval(x: np.ndarray, *, level: float = LEVEL) -> Interval:
     mean, n = x.mean(axis=0), len(x)
     half = np.full_like(mean, np.nan)
     if n >= FEWEST:
-        half = stats.t.ppf((1 + level) / 2, n - 1) * x.std(axis=0, ddof=1) / n**0.5
+        half = stats.t.ppf((1 + LEVEL) / 2, n - 1) * x.std(axis=0, ddof=1) / n**0.5
     ends = (mean, mean - half, mean + half)
     return Interval(*(float(end) if np.ndim(end) == 0 else end for end in ends))
 
 
-def gain_interval(a: np.ndarray, b: np.ndarray, *, level: float = LEVEL) -> Interval:
+def gain_interval(a: np.ndarray, b: np.ndarray) -> Interval:
     """
     Return mean(a) / mean(b) - 1, run i of a with run i of b, both (N,), positive.
 
@@ -140,20 +137,20 @@ def gain_interval(a: np.ndarray, b: np.ndarray, *, level: float = LEVEL) -> Inte
     if not (a.mean() > 0 and b.mean() > 0):
         return Interval(np.nan, np.nan, np.nan)
     log = np.log(a.mean() / b.mean()) + a / a.mean() - b / b.mean()
-    return Interval(*(float(np.expm1(end)) for end in t_interval(log, level=level)))
+    return Interval(*(float(np.expm1(end)) for end in t_interval(log)))
 
 
-def mean_interval(x: np.ndarray, *, rng, level: float = LEVEL) -> Interval:
+def mean_interval(x: np.ndarray, *, rng) -> Interval:
     """
     Return the mean over runs of x (N,) or (N, B), with its interval.
 
     >>> mean_interval(np.array([[1.0, 5.0], [3.0, 5.0]]), rng=0).estimate
     array([2., 5.])
     """
-    return bootstrap(np.mean, x, rng=rng, level=level)
+    return bootstrap(np.mean, x, rng=rng)
 
 
-def iqm_interval(x: np.ndarray, *, rng, level: float = LEVEL) -> Interval:
+def iqm_interval(x: np.ndarray, *, rng) -> Interval:
     """
     Return the interquartile mean over runs of x (N,), with its interval.
 
@@ -170,12 +167,10 @@ def iqm_interval(x: np.ndarray, *, rng, level: float = LEVEL) -> Interval:
     def iqm(x, axis):
         return stats.trim_mean(x, 0.25, axis=axis)
 
-    return bootstrap(iqm, x, rng=rng, level=level)
+    return bootstrap(iqm, x, rng=rng)
 
 
-def paired_difference(
-    a: np.ndarray, b: np.ndarray, *, rng, level: float = LEVEL
-) -> Interval:
+def paired_difference(a: np.ndarray, b: np.ndarray, *, rng) -> Interval:
     """
     Return the mean of a - b, both (N,), run i against run i.
 
@@ -186,12 +181,10 @@ def paired_difference(
     def difference(a, b, axis):
         return (a - b).mean(axis=axis)
 
-    return bootstrap(difference, a, b, rng=rng, level=level)
+    return bootstrap(difference, a, b, rng=rng)
 
 
-def relative_gain(
-    a: np.ndarray, b: np.ndarray, *, rng, level: float = LEVEL
-) -> Interval:
+def relative_gain(a: np.ndarray, b: np.ndarray, *, rng) -> Interval:
     """
     Return mean(a) / mean(b) - 1: by which share `a` exceeds `b`, both (N,).
 
@@ -205,12 +198,10 @@ def relative_gain(
         below = b.mean(axis=axis)
         return a.mean(axis=axis) / np.where(below == 0, np.nan, below) - 1
 
-    return bootstrap(gain, a, b, rng=rng, level=level)
+    return bootstrap(gain, a, b, rng=rng)
 
 
-def probability_of_improvement(
-    a: np.ndarray, b: np.ndarray, *, rng, level: float = LEVEL
-) -> Interval:
+def probability_of_improvement(a: np.ndarray, b: np.ndarray, *, rng) -> Interval:
     """
     Return P(a run of a > a run of b), ties counting one half; both (N,).
 
@@ -230,4 +221,4 @@ def probability_of_improvement(
         b = b[..., None, :]
         return ((a > b) + 0.5 * (a == b)).mean(axis=(-1, -2))
 
-    return bootstrap(share, a, b, rng=rng, level=level)
+    return bootstrap(share, a, b, rng=rng)

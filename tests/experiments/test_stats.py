@@ -10,9 +10,7 @@ from abstransfer.experiments.curves import (
     critical_point,
     jumpstart,
     rises,
-    sharpness,
     time_to_threshold,
-    transfer_ratio,
 )
 from abstransfer.experiments.stats import (
     iqm_interval,
@@ -129,15 +127,6 @@ def test_jumpstart_and_final_level_are_means_of_three_windows():
     np.testing.assert_array_equal(asymptotic_level(guided), [10, 9])
 
 
-def test_the_transfer_ratio_compares_all_goals():
-    np.testing.assert_array_equal(
-        transfer_ratio(
-            [[3, 3], [0, 1], [1, 1], [0, 0]], [[1, 3], [1, 1], [0, 0], [0, 0]]
-        ),
-        [1.5, 0.5, np.inf, np.nan],
-    )
-
-
 def test_a_threshold_is_reached_at_the_end_of_its_window():
     curves = np.array([[0, 7, 3, 9], [7, 0, 0, 0], [0, 0, 0, 6]])
 
@@ -175,12 +164,6 @@ def test_a_late_small_step_does_not_hide_a_long_steep_climb():
     )
 
     assert 9 <= critical_point(curve) <= 19
-
-
-def test_a_straight_line_has_no_critical_point_but_sharpness_one():
-    assert sharpness(3.0 * np.arange(60)) == pytest.approx(1)
-    assert sharpness(np.where(np.arange(60) < 30, 0.0, 1.0)) == pytest.approx(19)
-    assert np.isnan(sharpness(np.arange(60.0)[::-1]))
 
 
 def test_too_short_a_curve_is_refused():
