@@ -32,6 +32,7 @@ def _found():
                 yield kind
 
 
-for _kind in _found():
+KINDS = {kind.scene: kind for kind in _found()}  # by the name of their folder
+for _kind in KINDS.values():
     globals()[_kind.__name__] = _kind
     __all__.append(_kind.__name__)

@@ -22,6 +22,7 @@ from ..maps import Map, parse_map, read_map
 from .files import module, style
 
 VIEW = "application/vnd.jupyter.widget-view+json"
+MANY = 9999  # where a trait has no largest number: the map will say
 
 
 class Still(NamedTuple):
@@ -91,6 +92,7 @@ class Scene(anywidget.AnyWidget):
     """A scene of the book; each kind is a class of its own."""
 
     scene = ""  # its name among the scripts, and of its folder
+    constants = {}  # more that its script reads; JSON
 
     def __init__(self, **options):
         known = self.state_names()
@@ -104,7 +106,7 @@ class Scene(anywidget.AnyWidget):
 
     @property
     def _esm(self) -> str:
-        return module(self.scene)
+        return module(self.scene, self.spec())
 
     @property
     def _css(self) -> str:
@@ -125,6 +127,19 @@ class Scene(anywidget.AnyWidget):
             name: _plain(traits[name], traits[name].default())
             for name in cls.state_names()
         }
+
+    @classmethod
+    def spec(cls) -> dict:
+        """
+        Return what the script reads: the fields of the state, and constants.
+
+        >>> from abstransfer.scenes import Race
+        >>> Race.spec()["fields"]["t"]
+        {'start': 39, 'isLocal': False, 'kind': 'whole', 'bounds': [0, 1000]}
+        """
+        traits = cls.class_traits()
+        fields = {name: _field(traits[name]) for name in cls.state_names()}
+        return {"fields": fields, **cls.constants}
 
     @property
     def changed(self) -> dict:
@@ -188,6 +203,43 @@ def _to_list(array, _=None):
 
 def _to_array(values, _=None):
     return None if values is None else np.asarray(values, dtype=float)
+
+
+def _field(trait) -> dict:
+    """
+    Return what a script must know of a trait to read a value of it.
+
+    `kind` is "map", "choice", "flag", "whole", "number", "text", "list" or "json";
+    `bounds` are the least and the largest number, or all values.  Metadata of the
+    trait go before: `bounds`, and `local`, for what is no part of an address.
+    """
+    kind, bounds = _kind_and_bounds(trait)
+    field = {
+        "start": _plain(trait, trait.default()),
+        "isLocal": trait.metadata.get("local", False),
+        "kind": kind,
+    }
+    bounds = trait.metadata.get("bounds", bounds)
+    return field if bounds is None else {**field, "bounds": list(bounds)}
+
+
+def _kind_and_bounds(trait) -> tuple[str, list | None]:
+    if "bounds" in trait.metadata and not isinstance(trait, traitlets.Float):
+        return "whole", None
+    if isinstance(trait, traitlets.Enum):
+        return "choice", trait.values
+    if isinstance(trait, traitlets.Bool):
+        return "flag", None
+    if isinstance(trait, traitlets.Float | traitlets.Int):
+        kind = "number" if isinstance(trait, traitlets.Float) else "whole"
+        return kind, [trait.min, MANY if trait.max is None else trait.max]
+    if isinstance(trait, MapTrait):
+        return "map", None
+    if isinstance(trait, traitlets.Unicode):
+        return "text", None
+    if isinstance(trait, traitlets.List) and isinstance(trait._trait, traitlets.Enum):
+        return "list", trait._trait.values
+    return "json", None
 
 
 def _plain(trait, value):

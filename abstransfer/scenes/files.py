@@ -11,11 +11,15 @@ import json
 import re
 from functools import cache
 
-from ..maps import read_map
+from ..driving import PAPER, ROWS
+from ..experiments.arms import ARMS, PAPER_STEPS, TAUS
+from ..experiments.plan import SEED
+from ..maps import Map, read_map
 from ..plotting.style import PALETTE
 from .bundle import BUNDLES, COMMAND, FOLDER, BundleError, build, digest, is_fresh
 
 SCENE = ".abstransfer-scene"
+WINDOWS = 60  # of a run at full scale, as scenes show it
 LIGHT = SCENE
 DARK = ", ".join(
     f"{theme} {SCENE}"
@@ -39,22 +43,24 @@ EXTRA = {
 }
 
 
-def page_script(name: str) -> str:
+def page_script(name: str, spec: dict) -> str:
     """
     Return the script of a scene for a page: it mounts what it finds there.
+
+    `spec` is that of its class.
 
     Raises
     ------
     BundleError
         If the bundle is missing, or older than its sources, and cannot be made.
     """
-    return f"((python) => {{\n{bundled(name)}}})({said()});\n"
+    return f"((python) => {{\n{bundled(name)}}})({said(spec=spec)});\n"
 
 
-def module(name: str) -> str:
+def module(name: str, spec: dict) -> str:
     """Return the module of a widget: the same script, and what shows the scene."""
     try:
-        script = f"const python = {said(isWidget=True)};\n{bundled(name)}"
+        script = f"const python = {said(spec=spec, isWidget=True)};\n{bundled(name)}"
     except BundleError as error:
         return f"export default {{ render: {_sorry(error)} }};\n"
     return f"{script}export default {{ render: python.render }};\n"
@@ -92,8 +98,24 @@ def _problem(_: str) -> str:
 def said(**more) -> str:
     """Return what Python says to a script, as JSON."""
     maps = {name: str(read_map(name)) for name in ("source", "target")}
-    said = {"palette": _small_palette(), "mapTexts": maps}
+    said = {"palette": _small_palette(), "mapTexts": maps, "paper": _paper()}
     return json.dumps({**said, "workerSource": bundled("worker"), **more})
+
+
+def _paper() -> dict:
+    """Return what the paper compares and found."""
+    arms = [
+        {"name": a.name, "guide": a.guide, "strategy": a.strategy, "tau": a.tau}
+        for a in ARMS
+    ]
+    numbers = {name: {**_counts(read_map(name)), **PAPER[name]} for name in PAPER}
+    table = {"rows": ROWS, "numbers": numbers}
+    runs = {"seed": SEED, "windows": WINDOWS}
+    return {"arms": arms, "taus": TAUS, "steps": PAPER_STEPS, **table, **runs}
+
+
+def _counts(map_: Map) -> dict:
+    return {"cells": map_.n_cells, "rooms": map_.n_rooms, "goals": len(map_.goals)}
 
 
 def _sorry(error: BundleError) -> str:

@@ -140,13 +140,25 @@ export type State = any;
 /** Least and largest number, or all values. */
 export type Limits = readonly [number, number] | readonly string[];
 
-/** A scene, as its file defines it; see README.md. */
+/** A scene: what its file says, and its state, as Python's traits say. */
 export interface Spec {
   title: string;
-  state: State;
-  limits?: Record<string, Limits>;
-  local?: string[];
+  fields: Record<string, Field>;
+  state: State; // the start of each field
+  limits: Record<string, any>;
+  local: string[];
   build: (scene: Scene) => (state: State, changed: Set<string>) => void;
+}
+
+/** What the file of a scene says of it. */
+export type Own = Pick<Spec, "title" | "build">;
+
+/** What Python's trait says of a value of the state; see base.py. */
+export interface Field {
+  start: any;
+  kind: "map" | "choice" | "flag" | "whole" | "number" | "text" | "list" | "json";
+  isLocal: boolean; // no part of an address
+  bounds?: readonly any[]; // least and largest number, or all values
 }
 
 /** What `build` gets. */
@@ -176,6 +188,7 @@ export interface Scene {
   betResult: (name: string, truth: string) => string;
   bets: Record<string, Record<string, string>>;
   say: (sentence: string) => void;
+  warn: (problems: Record<string, string>) => void;
   close: (sentence: string | false) => void;
   twin: (f: () => Table) => void;
 }
@@ -221,8 +234,17 @@ export interface Said {
   };
   mapTexts: { source: string; target: string };
   workerSource: string;
+  paper: {
+    arms: { name: string; guide: string | null; strategy: string; tau: number }[];
+    taus: number[];
+    steps: number;
+    rows: string[];
+    numbers: Record<string, Record<string, number>>;
+    seed: number;
+    windows: number;
+  };
   isWidget?: boolean;
-  spec?: Spec;
+  spec?: any; // { fields, ...constants } of the scene
   mount?: (element: HTMLElement, options?: State, more?: object) => any;
   render?: (context: { model: any; el: HTMLElement }) => () => void;
 }

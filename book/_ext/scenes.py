@@ -10,7 +10,7 @@ from pathlib import Path
 
 from sphinx.util import logging
 
-from abstransfer.scenes import bundle, files
+from abstransfer.scenes import KINDS, files
 
 # The theme's scroll spy would read all links of a page, and fail at a link to a moment
 # of a scene: it shall read those of the page's contents, as it means to.
@@ -28,7 +28,10 @@ def write_files(app, exception):
         return
     folder = Path(app.outdir, "_static", "scenes")
     folder.mkdir(exist_ok=True)
-    texts = {f"{name}.js": files.page_script(name) for name in bundle.scenes()}
+    texts = {
+        f"{name}.js": files.page_script(name, kind.spec())
+        for name, kind in KINDS.items()
+    }
     texts["scenes.css"] = files.style()
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")

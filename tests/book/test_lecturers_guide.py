@@ -2,17 +2,14 @@
 
 import json
 import re
-import subprocess
-from functools import cache
 
 import pytest
 from support import ROOT
 
 from abstransfer.exercises import all_exercises
-from abstransfer.scenes import bundle
+from abstransfer.scenes import KINDS
 
 BOOK = ROOT / "book"
-SPECS = ROOT / "tests" / "scenes" / "js" / "specs.js"
 GUIDE = (BOOK / "lecturers_guide.md").read_text(encoding="utf-8")
 MOMENTS = re.findall(r'<a class="disabled" href="(\w+)\.html#([^"]+)">', GUIDE)
 OPEN = dict(re.findall(r"^\| `(ex-[\w-]+)` \| ([^|]{20,}) \|$", GUIDE, re.MULTILINE))
@@ -24,17 +21,6 @@ def cells_of(page):
 
 def outputs_of(page):
     return " ".join(json.dumps(cell.get("outputs", "")) for cell in cells_of(page))
-
-
-@cache
-def specs():
-    """What the scripts say of the state of each scene."""
-    bundle.build()
-    read = [bundle.find_deno(), "run", "--quiet", "--no-check", "--allow-read", SPECS]
-    told = subprocess.check_output(
-        [*read, *bundle.scenes()], text=True, env=bundle.environment()
-    )
-    return json.loads(told)
 
 
 def page_of(key):
@@ -52,18 +38,17 @@ def test_each_page_has_a_moment_to_show():
 def test_a_moment_is_a_state_of_the_scene_on_its_page(page, moment):
     for part in moment.split("&"):
         scene, name, value = re.fullmatch(r"(\w+)\.(\w+)=(\w[\w.]*)", part).groups()
-        spec = specs()[scene]
-        bounds = spec["limits"].get(name)
+        field = KINDS[scene].spec()["fields"][name]
 
         assert f'data-scene=\\"{scene}\\"' in outputs_of(page)
-        assert name in spec["state"]
-        assert name not in spec["local"]
-        if isinstance(spec["state"][name], str):
-            assert value in bounds
-        elif isinstance(spec["state"][name], bool):
+        assert not field["isLocal"]
+        if field["kind"] == "choice":
+            assert value in field["bounds"]
+        elif field["kind"] == "flag":
             assert value in ("true", "false")
         else:
-            assert bounds[0] <= float(value) <= bounds[1]
+            least, most = field["bounds"]
+            assert least <= float(value) <= most
 
 
 def test_the_guide_says_of_each_open_exercise_what_a_good_answer_holds():

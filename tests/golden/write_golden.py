@@ -19,7 +19,7 @@ import numpy as np
 import abstransfer as at
 from abstransfer.builders import abstract_policies
 from abstransfer.driving import PAPER
-from abstransfer.experiments.arms import ARMS, TAUS
+from abstransfer.experiments.arms import ARMS
 from abstransfer.learning import q_learning
 
 HERE = Path(__file__).parent
@@ -343,8 +343,6 @@ def learning_golden() -> dict:
         "key": SEED[1],
         "cases": cases,
         "streams": streams,
-        "arms": [arm._asdict() for arm in ARMS],
-        "taus": TAUS,
     }
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support import Visit
 
-from abstransfer.scenes import bundle
+from abstransfer.scenes import KINDS, bundle
 from abstransfer.scenes import files as front
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
@@ -172,7 +172,7 @@ def scripts(body):
     """The scripts of the scenes in a page; what Python said to each is in `said`."""
     names = sorted(set(re.findall(r'data-scene="(\w+)"', body)))
     texts = [
-        f"<script>said.{name} = {front.said()};"
+        f"<script>said.{name} = {front.said(spec=KINDS[name].spec())};"
         f"((python) => {{\n{front.bundled(name)}}})(said.{name});</script>"
         for name in names
     ]
@@ -182,9 +182,8 @@ def scripts(body):
 @cache
 def probe():
     """A script that puts parts of the front end into the object `probe` of a page."""
-    return (
-        f"((python) => {{\n{bundle.bundle_one(PROBE)}}})({front.said(isWidget=True)})"
-    )
+    said = front.said(spec=KINDS["microscope"].spec(), isWidget=True)
+    return f"((python) => {{\n{bundle.bundle_one(PROBE)}}})({said})"
 
 
 @pytest.fixture

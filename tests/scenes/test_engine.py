@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from golden.write_golden import GOLDEN, as_json, read
 
-from abstransfer.scenes import bundle
+from abstransfer.scenes import KINDS, bundle
+from abstransfer.scenes import files as front
 
 HERE = Path(__file__).parent
 IMPORT = re.compile(r'^import (?:[^;"]* from )?"([^"]+)";$', re.MULTILINE)
@@ -51,10 +52,13 @@ def test_a_changed_number_is_noticed():
 
 
 @pytest.mark.parametrize("path", sorted((HERE / "js").glob("*.test.js")), ids=str)
-def test_the_front_end_without_a_page(path):
-    bundle.build()  # a test reads the bundle of the workers
+def test_the_front_end_without_a_page(path, tmp_path):
+    said = tmp_path / "said.json"
+    fields = {name: kind.spec()["fields"] for name, kind in KINDS.items()}
+    said.write_text(front.said(isWidget=True, fields=fields), encoding="utf-8")
+    test = [bundle.find_deno(), "test", "--no-check", "--allow-read"]
     done = subprocess.run(
-        [bundle.find_deno(), "test", "--no-check", "--allow-read", path],
+        [*test, path, "--", said],
         capture_output=True,
         text=True,
         timeout=300,

@@ -227,10 +227,6 @@ def test_on_a_phone(open_scene):
 # In Python
 
 
-def test_the_browser_starts_as_python_does(dial):
-    assert dial.page.evaluate("said.dial.spec.state") == Dial.defaults()
-
-
 def test_the_still_picture_says_where_the_peaks_are():
     scene = Dial(steps=STEPS)
     soup = BeautifulSoup(scene.html(), "html.parser")

@@ -297,10 +297,6 @@ def test_nothing_moves_by_itself(show):
 # In Python
 
 
-def test_the_browser_starts_as_python_does(paint):
-    assert paint.page.evaluate("said.paint.spec.state") == Paint.defaults()
-
-
 def test_features_go_by_names_in_python_and_by_bits_in_the_browser():
     scene = Paint(features=["in_room", "near_goal"])
     assert scene.features == ("near_goal", "in_room")

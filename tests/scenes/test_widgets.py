@@ -65,7 +65,7 @@ def test_a_scene_refuses_what_it_does_not_have(kind):
 def test_a_widget_brings_all_it_needs(kind):
     state = kind().get_state()
 
-    assert state["_esm"] == front.module(kind.scene)
+    assert state["_esm"] == front.module(kind.scene, kind.spec())
     assert not re.search(r"^\s*import\b", state["_esm"], re.MULTILINE)
     hosts = set(re.findall(r"https?://[^/\s\"']*", state["_esm"]))
     assert hosts == {"http://www.w3.org"}, "a name of SVG, and nothing is loaded"
@@ -87,7 +87,7 @@ def test_without_bundles_a_widget_says_what_to_do(monkeypatch):
     assert "run: python -m abstransfer.scenes.bundle (there is no deno)" in script
     assert "export default { render:" in script
     with pytest.raises(bundle.BundleError, match="must be bundled anew"):
-        front.page_script("race")
+        front.page_script("race", scenes.Race.spec())
 
 
 def test_a_changed_source_is_bundled_anew_once(monkeypatch, tmp_path):

@@ -1,11 +1,10 @@
 // The ballot box, page 5: states that look alike vote for what is best in them; a dial
 // makes a page of advice of the votes, from ND (0) over Prob (1) to the winner.
 
-import { A, BETAS, betaText, drive, elect, pageOf, STEP, WINNER } from "./votes.js";
+import { BETAS, betaText, drive, elect, pageOf, STEP, WINNER } from "./votes.js";
 import { wholePage } from "./whole.js";
 import { parseMap } from "../engine/maps.js";
-import { LABELS, navigationTasks } from "../engine/navigation.js";
-import { mapTexts } from "../python.js";
+import { A, LABELS, navigationTasks } from "../engine/navigation.js";
 import { barChart } from "../ui/bars.js";
 import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
@@ -15,18 +14,6 @@ import { sight as sightOf, sights } from "../ui/sights.js";
 
 defineScene("ballot", {
   title: "The ballot box",
-  state: {
-    map: mapTexts.target,
-    source: mapTexts.source,
-    z: 19,
-    task: 7,
-    beta: 1,
-    bet: "",
-    bet_more: "",
-  },
-  limits: { z: [0, 2 ** 11 - 1], task: [0, 999], beta: [0, WINNER] },
-  local: ["bet", "bet_more"],
-
   build(scene) {
     const { state } = scene;
     let sides; // of both buildings: map, and its tasks as far as they are made

@@ -1,14 +1,14 @@
 // The election of page 5, and what its pages of advice are worth: a task between yields,
 // so that a large building does not stop the hand.
 
-import { navigationTasks } from "../engine/navigation.js";
+import { A, navigationTasks } from "../engine/navigation.js";
 import { betaPolicy, breakTies, countVotes, induceProbabilistic } from "../engine/policies.js";
 import { evaluatePolicy, optimalActions, optimalValues } from "../engine/solvers.js";
 import { number } from "../ui/dom.js";
+import { spec } from "../python.js";
 
-export const A = 8;
 const Z = 2 ** 11;
-export const [LAST, STEP] = [8, 0.25];
+export const { last: LAST, step: STEP } = spec;
 export const WINNER = LAST + STEP; // where the slider ends: beta is infinite
 export const BETAS = Array.from({ length: WINNER / STEP + 1 }, (_, i) => i * STEP);
 

@@ -28,6 +28,7 @@ class BetaTrait(traitlets.Float):
         super().__init__(default, **options)
         self.tag(
             sync=True,
+            bounds=(0.0, WINNER),
             to_json=lambda beta, _: WINNER if np.isinf(beta) else beta,
             from_json=lambda beta, _: np.inf if beta > LAST else float(beta),
         )
@@ -67,13 +68,14 @@ class Ballot(Scene):
     """
 
     scene = "ballot"
+    constants = {"last": LAST, "step": STEP}
     map = MapTrait("target")
     source = MapTrait("source")
     z = traitlets.CInt(0b10011, min=0, max=2**11 - 1).tag(sync=True)
     task = traitlets.CInt(7, min=0).tag(sync=True)
     beta = BetaTrait()
-    bet = traitlets.Unicode("").tag(sync=True)
-    bet_more = traitlets.Unicode("").tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    bet_more = traitlets.Unicode("").tag(sync=True, local=True)
 
     @property
     def votes(self) -> np.ndarray:

@@ -7,15 +7,16 @@ import { parseMap } from "../engine/maps.js";
 import { navigationTasks } from "../engine/navigation.js";
 import { betaPolicy, inducedPolicies } from "../engine/policies.js";
 import { evaluatePolicy, mean } from "../engine/solvers.js";
-import { mapTexts } from "../python.js";
+import { paper, spec } from "../python.js";
 import { button } from "../ui/controls.js";
 import { count, make, millions, number, plural } from "../ui/dom.js";
 import { lineChart } from "../ui/lines.js";
 import { defineScene } from "../ui/scene.js";
 import * as runs from "../parts/runs.js";
 
-const SEED = 2015; // run `luck` has the seed of that run of the stored experiments
-const [LAST, STEP] = [8, 0.25];
+const { seed: SEED } = paper; // run `luck` has the seed of that run of the stored experiments
+const { step: STEP } = spec;
+const [, LAST] = spec.fields.beta.bounds;
 const BETAS = Array.from({ length: LAST / STEP + 1 }, (_, i) => i * STEP);
 const REWARDS = { goal: "1 at the goal, Q starts at 0", cost: "−1 a step, Q starts at 0" };
 const BETS = {
@@ -28,29 +29,6 @@ const SIDES = { hard: "hard", soft: "soft" };
 
 defineScene("dial", {
   title: "One dial, two curves",
-  state: {
-    map: mapTexts.target,
-    source: mapTexts.source,
-    beta: 1,
-    reward: "goal",
-    strategy: "hard",
-    tau: 3.5e6,
-    luck: 1,
-    steps: 30e6,
-    bet: "",
-    points: [],
-  },
-  limits: {
-    beta: [0, LAST],
-    reward: Object.keys(REWARDS),
-    strategy: Object.keys(SIDES),
-    tau: [0, 30e6],
-    luck: [1, 50],
-    steps: [6e5, 30e6],
-    bet: ["", ...Object.keys(BETS), "skip"],
-  },
-  local: ["bet", "points"],
-
   build(scene) {
     let source, target, prob, drives, worlds; // drives: [in source, in target] by beta
     let running = []; // { point, n, goals } of workers

@@ -7,7 +7,7 @@ import traitlets
 
 from ...experiments.arms import PAPER_STEPS, STRATEGIES, Arm
 from ...experiments.problem import Problem
-from ..parts.betas import LAST, driving_at, policy_at
+from ..parts.betas import LAST, STEP, driving_at, policy_at
 from ..parts.runs import RunScene
 
 MAPS = {"source": "source", "target": "map"}  # traits by what they are
@@ -50,12 +50,13 @@ class Dial(RunScene):
     """
 
     scene = "dial"
+    constants = {"step": STEP}
     beta = traitlets.Float(1.0, min=0.0, max=LAST).tag(sync=True)
     reward = traitlets.Enum(("goal", "cost"), "goal").tag(sync=True)
     strategy = traitlets.Enum(STRATEGIES, "hard").tag(sync=True)
     tau = traitlets.CInt(3_500_000, min=0, max=PAPER_STEPS).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    points = traitlets.List().tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    points = traitlets.List().tag(sync=True, local=True)
 
     @property
     def problem(self) -> Problem:

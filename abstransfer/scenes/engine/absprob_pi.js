@@ -7,6 +7,8 @@ import { factorTask, ofTask, stateActionValues, TIE } from "./solvers.js";
 
 /** @import { Climbed, Problem } from "../types.d.ts" */
 
+export const ITERATIONS = 300; // until Grad stands
+
 /**
  * Value of an abstract policy (Z, A) from the start distribution (S,), its
  * gradient (Z, A) and the discounted visits (Z,); uniform start by default.
@@ -84,7 +86,7 @@ function climbStep(policy, { gradient, visits }, possible, softness, step) {
  * @returns {Generator<Climbed, void>}
  */
 export function* absprobPi(tasks, options = {}) {
-  const { initial, start, iterations = 300, softness = 0.05 } = options;
+  const { initial, start, iterations = ITERATIONS, softness = 0.05 } = options;
   const policy = initial ? initial.slice() : uniformPolicy(tasks.possible, tasks.nActions);
   for (let iteration = 0;; iteration++) {
     const found = abstractGradient(tasks, policy, start);

@@ -260,7 +260,7 @@ function checkBuilding(map, nBlank) {
   const part = components(neighbors);
   const sizes = new Int32Array(nCells);
   part.forEach((number) => sizes[number]++);
-  const largest = sizes.indexOf(Math.max(...sizes));
+  const largest = sizes.indexOf(sizes.reduce((most, n) => Math.max(most, n)));
   refuseFirstCell(
     (cell) => part[cell] !== largest,
     "this region cannot be reached from the rest of the building",

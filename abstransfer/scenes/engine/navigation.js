@@ -9,7 +9,7 @@ export const KINDS = ["see_empty_space", "see_door_far", "see_room", "see_corrid
 export const ORIENTATIONS = ["head_to_goal", "opposite_to_goal"];
 export const LABELS = ORIENTATIONS.flatMap((side) => KINDS.map((kind) => `${kind}_${side}`));
 export const FEATURES = [...LABELS, "near_goal", "almost_near_goal", "in_room"];
-const A = LABELS.length;
+export const A = LABELS.length;
 
 /**
  * What is seen in each direction, whichever the goal: index into KINDS, (C, 4).

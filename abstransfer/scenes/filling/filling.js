@@ -18,10 +18,6 @@ const BETS = {
 };
 defineScene("filling", {
   title: "When would you sign?",
-  state: { results: "goal-target", claim: "1", order: 0, n: 3, signed: 0, bet: "", data: {} },
-  limits: { claim: Object.keys(CLAIMS), order: [0, 4], n: [2, 50], signed: [0, 50] },
-  local: ["bet", "data"],
-
   build(scene) {
     const { state } = scene;
     const thousands = (x) => `${count(x / 1000)}k`;

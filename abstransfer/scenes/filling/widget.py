@@ -63,8 +63,8 @@ class Filling(Scene):
     order = traitlets.Int(0, min=0, max=4).tag(sync=True)
     n = traitlets.Int(3, min=2, max=RUNS).tag(sync=True)
     signed = traitlets.Int(0, min=0, max=RUNS).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    data = traitlets.Dict().tag(sync=True)  # follows `results`
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    data = traitlets.Dict().tag(sync=True, local=True)  # follows `results`
 
     @traitlets.default("data")
     def _first_data(self) -> dict:

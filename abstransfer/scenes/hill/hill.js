@@ -2,7 +2,6 @@
 // path of AbsProb-PI from where the reader drops it.
 
 import { runFor } from "../engine/absprob_pi.js";
-import { LAST } from "./land.js";
 import { button } from "../ui/controls.js";
 import { drawn, make, marker, number } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
@@ -23,10 +22,6 @@ const clip = (x) => Math.min(Math.max(Math.round(x * 100) / 100, 0), 1);
 
 defineScene("hill", {
   title: "Climbing with two knobs",
-  state: { p: 0.3, q: 0.3, start: "hall", t: 5, earlier: [], sides: false, bet: "" },
-  limits: { p: [0, 1], q: [0, 1], start: Object.keys(STARTS), t: [0, LAST] },
-  local: ["bet"],
-
   build(scene) {
     const { state } = scene;
     const x = (p) => LEFT + SIDE * p;
@@ -119,9 +114,8 @@ defineScene("hill", {
 
     // An address may hold anything.
     const earlier = () =>
-      [state.earlier].flat().filter((knobs) =>
-        knobs?.length === 2 && knobs.every((x) => x >= 0 && x <= 1)
-      );
+      state.earlier.filter((knobs) => knobs?.length === 2 && knobs.every((x) => x >= 0 && x <= 1))
+        .slice(-KEPT);
     const wayOf = (p, q) => (ways[`${p} ${q} ${state.start}`] ??= land.climb(p, q, state.start));
     const way = () => wayOf(state.p, state.q);
     const top = (

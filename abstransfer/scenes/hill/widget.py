@@ -68,7 +68,7 @@ class Hill(Scene):
     t = traitlets.Int(5, min=0, max=LAST).tag(sync=True)
     earlier = traitlets.List().tag(sync=True)
     sides = traitlets.Bool(False).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
 
     def value(self, p: float | None = None, q: float | None = None) -> float:
         """Return what a page is worth: the one the climb starts from by default."""

@@ -1,7 +1,7 @@
 // Table 1 as a ladder, page 7: pages of advice written in a source drive in two
 // buildings.  Edit the source, or how it is read, and the rungs move.
 
-import { absprobPi } from "../engine/absprob_pi.js";
+import { absprobPi, ITERATIONS } from "../engine/absprob_pi.js";
 import { parseMap } from "../engine/maps.js";
 import { navigationTasks } from "../engine/navigation.js";
 import { inducedPolicies, randomPolicy } from "../engine/policies.js";
@@ -9,11 +9,9 @@ import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
 import { PAPER, ROWS } from "../engine/paper.js";
 import { makeLadders } from "./rungs.js";
 import { makeEditor } from "../parts/editor.js";
-import { mapTexts } from "../python.js";
 import { armStyle, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 
-const GRAD = 300; // iterations
 const PAGES = ["nd", "prob", "grad"];
 const SIDES = ["source", "target"];
 const ACTIONS = { relational: "go to what you see", compass: "north, east, south, west" };
@@ -43,7 +41,7 @@ function* solving(maps, reading) {
   drive("prob", prob);
   yield found;
   found.target.optimal = mean(optimalValues(target));
-  for (const { iteration, policy, value } of absprobPi(source, { iterations: GRAD })) {
+  for (const { iteration, policy, value } of absprobPi(source)) {
     Object.assign(found, { iteration, grad: policy });
     found.source.grad = value;
     yield found;
@@ -52,26 +50,6 @@ function* solving(maps, reading) {
 
 defineScene("ladder", {
   title: "The ladder: Table 1",
-  state: {
-    text: mapTexts.source,
-    target: mapTexts.target,
-    tool: "wall",
-    success: 0.9,
-    actions: "relational",
-    near: 5,
-    almost_near: 8,
-    order: "",
-    gap: "",
-  },
-  limits: {
-    tool: ["wall", "door", "room", "corridor", "goal"],
-    success: [0.5, 1],
-    actions: Object.keys(ACTIONS),
-    near: [0, 20],
-    almost_near: [0, 20],
-  },
-  local: ["order", "gap", "target"], // the target is Python's to change
-
   build(scene) {
     const name = (row) => armStyle(row).name;
     let [found, before, first, target] = [null, null, null, null];
@@ -132,7 +110,7 @@ defineScene("ladder", {
 
     // ---- solving, in slices: the rungs first, then Grad climbs
 
-    const isDone = () => found?.iteration === GRAD;
+    const isDone = () => found?.iteration === ITERATIONS;
     function begin() {
       before = found ?? before;
       found = null;
@@ -185,7 +163,7 @@ defineScene("ladder", {
         ? "A building of this size takes a while."
         : isDone()
         ? "Grad is at the top of its climb."
-        : `Grad climbs: ${found?.iteration ?? 0} of ${GRAD} steps.`;
+        : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS} steps.`;
       me.show();
     }
 

@@ -48,14 +48,14 @@ class Ladder(DrawnScene):
     drawn = "source"
     source = MapTrait("source").tag(sync=False)
     text = traitlets.Unicode(str(read_map("source"))).tag(sync=True)
-    target = MapTrait("target")
+    target = MapTrait("target").tag(local=True)  # Python's to change
     tool = traitlets.Enum(TOOLS, "wall").tag(sync=True)
     success = traitlets.CFloat(0.9, min=0.5, max=1.0).tag(sync=True)
     actions = traitlets.Enum(("relational", "compass"), "relational").tag(sync=True)
     near = traitlets.Int(5, min=0, max=20).tag(sync=True)
     almost_near = traitlets.Int(8, min=0, max=20).tag(sync=True)
-    order = traitlets.Unicode("").tag(sync=True)
-    gap = traitlets.Unicode("").tag(sync=True)
+    order = traitlets.Unicode("").tag(sync=True, local=True)
+    gap = traitlets.Unicode("").tag(sync=True, local=True)
 
     @property
     def table(self) -> dict:

@@ -3,9 +3,9 @@
 
 import { RULE } from "../engine/learning.js";
 import { parseMap } from "../engine/maps.js";
-import { LABELS } from "../engine/navigation.js";
+import { A, LABELS } from "../engine/navigation.js";
 import { mean } from "../engine/solvers.js";
-import { A, BET, given, HOW, LUCKS, STARTS, STEPS, take, TWO_ROOMS, visited } from "./runs.js";
+import { BET, given, HOW, LUCKS, STARTS, take, visited } from "./runs.js";
 import { mapTexts } from "../python.js";
 import { barChart, formula } from "../ui/bars.js";
 import { building } from "../ui/building.js";
@@ -15,16 +15,6 @@ import { nameOf } from "../ui/sights.js";
 
 defineScene("microscope", {
   title: "Q-learning under the microscope",
-  state: { map: TWO_ROOMS, start: "goal", task: 0, luck: 4, t: 111, bet: "", trace: [] },
-  limits: {
-    start: Object.keys(STARTS),
-    task: [0, 1],
-    luck: [1, 99],
-    t: [0, STEPS],
-    bet: ["", ...Object.keys(STARTS), "skip"],
-  },
-  local: ["bet", "trace"],
-
   build(scene) {
     let [map, run, q, done] = [null, null, null, 0];
     let counts = null; // cells visited by each start, by luck
@@ -44,7 +34,7 @@ defineScene("microscope", {
     const words = make("p", {});
     const buildings = scene.choice("map", {
       label: "Building",
-      options: { [TWO_ROOMS]: "two rooms", [mapTexts.source]: "the source" },
+      options: { [scene.spec.state.map]: "two rooms", [mapTexts.source]: "the source" },
     });
     scene.add(
       scene.row(buildings, scene.slider("luck", { label: "Luck (seed)" })),
@@ -90,7 +80,7 @@ defineScene("microscope", {
     function begin(state) {
       map = parseMap(state.map);
       scene.limit("task", [0, map.goals.length - 1]);
-      run = state.trace.length ? given(map, state) : take(map, state, STEPS);
+      run = state.trace.length ? given(map, state) : take(map, state, scene.spec.limits.t[1]);
       scene.limit("t", [0, run.steps.length]);
       q = new Float64Array(A * map.nCells).fill(run.q0);
       run.tasks.terminal.forEach((isGoal, s) => isGoal && q.fill(0, A * s, A * s + A));

@@ -2,28 +2,12 @@
 
 import { makeWorld, Run } from "../engine/learning.js";
 import { navigationTasks } from "../engine/navigation.js";
+import { spec } from "../python.js";
 
-export const TWO_ROOMS = `+-----+-----+
-|     |     |
-|     |     |
-|  *  |  *  |
-|     |     |
-|     |     |
-+--d--+--d--+
-|. . . . . .|
-|           |
-|. . . . . .|
-+-----------+`;
-export const A = 8;
-export const STEPS = 300; // that can be looked at
-export const BET = 100; // steps after which cells are counted
+export const { bet: BET, starts: STARTS } = spec;
 export const LUCKS = 20; // runs that the closing sentence averages
-export const STARTS = {
-  goal: { reward: "goal", q0: 0, text: "1 at the goal, Q starts at 0" },
-  cost: { reward: "cost", q0: 0, text: "−1 a step, Q starts at 0" },
-  low: { reward: "cost", q0: -10, text: "−1 a step, Q starts at −10" },
-};
 export const HOW = { guided: "advised", explored: "a random action", greedy: "a largest value" };
+
 // The steps of a run: what the engine says of each.
 export function take(map, { start, task, luck }, n) {
   const { reward, q0 } = STARTS[start];

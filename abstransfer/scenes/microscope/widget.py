@@ -67,13 +67,20 @@ class Microscope(Scene):
     """
 
     scene = "microscope"
+    constants = {
+        "bet": BET,
+        "starts": {
+            name: {"reward": reward, "q0": q0, "text": text}
+            for name, (reward, q0, text) in STARTS.items()
+        },
+    }
     map = MapTrait(TWO_ROOMS)
     start = traitlets.Enum(tuple(STARTS), "goal").tag(sync=True)
     task = traitlets.Int(0, min=0).tag(sync=True)
     luck = traitlets.Int(4, min=1, max=99).tag(sync=True)
     t = traitlets.Int(111, min=0, max=STEPS).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    trace = traitlets.List().tag(sync=True)  # of a rule of the reader's own
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    trace = traitlets.List().tag(sync=True, local=True)  # of a rule of the reader's own
 
     def __init__(self, *, update: Callable | None = None, **options):
         super().__init__(**options)

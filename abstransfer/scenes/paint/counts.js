@@ -1,11 +1,10 @@
 // What page 4 counts: states by what they look like, over all tasks of a building.
 // Forgetting a feature merges abstract states, so the sums are merged, not made again.
 
-import { navigationTasks } from "../engine/navigation.js";
+import { A, navigationTasks } from "../engine/navigation.js";
 import { optimalActions, optimalValues } from "../engine/solvers.js";
 
 const Z = 2 ** 11;
-const A = 8;
 
 // One task after the other: states (Z,) that are no goal, by abstract state, and
 // `suits` (Z, A), in how many an action is optimal (if asked for).

@@ -5,7 +5,6 @@ import { parseMap } from "../engine/maps.js";
 import { FEATURES, navigationTasks } from "../engine/navigation.js";
 import { counts, looks, tally } from "./counts.js";
 import { findings } from "./found.js";
-import { mapTexts } from "../python.js";
 import { building } from "../ui/building.js";
 import { button, toggle } from "../ui/controls.js";
 import { make, place, plural } from "../ui/dom.js";
@@ -18,19 +17,6 @@ const SIDES = [["task", "source", "small"], ["away", "map", "large"]];
 
 defineScene("paint", {
   title: "Paint by abstract state",
-  state: {
-    map: mapTexts.target,
-    source: mapTexts.source,
-    task: 0,
-    away: 11,
-    z: 530,
-    features: ALL,
-    bet: "",
-    bet_new: "",
-  },
-  limits: { task: [0, 999], away: [0, 999], z: [-1, ALL], features: [0, ALL] },
-  local: ["bet", "bet_new"],
-
   build(scene) {
     let counted = {}; // { home, away, solved } as far as they are counted
     let [full, seen] = [null, null]; // counts with all features; looks with those kept

@@ -22,6 +22,7 @@ class FeaturesTrait(traitlets.TraitType):
         super().__init__(FEATURES, **options)
         self.tag(
             sync=True,
+            bounds=(0, ALL),
             to_json=lambda names, _: mask_of(names),
             from_json=lambda mask, _: [
                 f for i, f in enumerate(FEATURES) if mask >> i & 1
@@ -69,8 +70,8 @@ class Paint(Scene):
     away = traitlets.CInt(11, min=0).tag(sync=True)
     z = traitlets.CInt(530, min=-1, max=ALL).tag(sync=True)
     features = FeaturesTrait()
-    bet = traitlets.Unicode("").tag(sync=True)
-    bet_new = traitlets.Unicode("").tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    bet_new = traitlets.Unicode("").tag(sync=True, local=True)
 
     @property
     def counts(self) -> Counts:

@@ -1,6 +1,6 @@
 // What the scenes of learning at full scale share: the problem, its guides, and runs
 // of it.  Run `luck` has the seed of that run of the stored experiments, so that all
-// numbers can be compared with theirs.  See Python's `_widget_runs`.
+// numbers can be compared with theirs.  See Python's `parts/runs`.
 
 import { makeGuide, makeWorld } from "../engine/learning.js";
 import { parseMap } from "../engine/maps.js";
@@ -10,9 +10,10 @@ import { inducedPolicies, randomPolicy, uniformPolicy } from "../engine/policies
 import { deducedPolicy } from "../engine/absprob_pi.js";
 import { count, list, millions } from "../ui/dom.js";
 import { lineChart } from "../ui/lines.js";
+import { paper } from "../python.js";
 
-const SEED = 2015;
-export const WINDOWS = 60; // of a run
+const { seed: SEED } = paper;
+export const { windows: WINDOWS } = paper; // of a run
 export const NAMES = {
   none: "no advice",
   rand: "random",

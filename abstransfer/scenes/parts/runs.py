@@ -13,8 +13,8 @@ from ...experiments.problem import Problem, build_guides, target_tasks
 from ...experiments.results import read_results
 from ...learning import q_learning
 from ..base import ArrayTrait, MapTrait, Scene
+from ..files import WINDOWS
 
-WINDOWS = 60  # of a run
 RUNS = 50  # of the stored experiments
 STORED = "goal-target"
 NAMES = {

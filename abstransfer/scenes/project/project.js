@@ -1,6 +1,7 @@
 // Your turn, page 11: a building and features of one's own, a race in it, and a result
 // card to hand in.
 
+import { ITERATIONS } from "../engine/absprob_pi.js";
 import { abstractStates, FEATURES } from "../engine/navigation.js";
 import { makeEditor } from "../parts/editor.js";
 import { lifeRows } from "../parts/rows.js";
@@ -12,13 +13,6 @@ import { defineScene } from "../ui/scene.js";
 import { sight } from "../ui/sights.js";
 import * as rules from "./race.js";
 
-const ROOM = `${"|     ".repeat(3)}|\n`;
-const ROOMS = `${ROOM}${ROOM}|  *  |  *  d  *  |\n${ROOM}${ROOM}`;
-const SCHOOL = `+-----+-----+-----+
-${ROOMS}+--d--+-----+--d--+
-|. . . . . . . . .|
-+--d--+--d--+-----+
-${ROOMS}+-----+-----+-----+`;
 const NAMES = {
   nd: "ND",
   prob: "Prob",
@@ -40,31 +34,12 @@ const armOf = (name) => (name === "eager" ? "uniform_available" : name);
 
 defineScene("project", {
   title: "Your turn: a race in your own building",
-  state: {
-    text: SCHOOL,
-    tool: "wall",
-    features: FEATURES,
-    guides: [...PAGES, "eager"],
-    advice: "source",
-    strategy: "hard",
-    lives: 5,
-    bet: "",
-    goals: {},
-  },
-  limits: {
-    tool: ["wall", "door", "room", "corridor", "goal"],
-    advice: Object.keys(FROM),
-    strategy: Object.keys(WAYS),
-    lives: [1, 20],
-  },
-  local: ["bet", "goals"],
-
   build(scene) {
     const { state } = scene;
     let [found, isWanted, isBegun] = [null, false, false];
     let [asked, done] = [1, 0]; // tenths of lives
 
-    const me = makeEditor(scene, { buildings: { "The school": SCHOOL } });
+    const me = makeEditor(scene, { buildings: { "The school": scene.spec.state.text } });
     // Ticks of a list in the state; what an address holds is put in order.
     const listed = (name, all) => {
       const now = state[name];
@@ -164,7 +139,7 @@ defineScene("project", {
 
     // ---- before the race: the pages, in slices
 
-    const isReady = () => found?.iteration === rules.GRAD && found.drives.grad !== undefined;
+    const isReady = () => found?.iteration === ITERATIONS && found.drives.grad !== undefined;
     function prepare() {
       found = null;
       const job = !me.problem && !me.isLarge() && rules.preparing(me.map, features(), state.advice);
@@ -266,7 +241,7 @@ defineScene("project", {
       if (isWanted) {
         return `${length} The pages are being written: Grad, ${
           found?.iteration ?? 0
-        } of ${rules.GRAD}.`;
+        } of ${ITERATIONS}.`;
       }
       if (scene.isLearning) {
         return `${length} Racing: ${number((100 * done) / asked, 0)} % of ${lived(asked / 10)}.`;
@@ -297,7 +272,7 @@ defineScene("project", {
         ? "A building of this size is solved when the race begins."
         : me.problem
         ? ""
-        : `Grad climbs: ${found?.iteration ?? 0} of ${rules.GRAD}.`;
+        : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS}.`;
       status.textContent = saying();
       start.set(`Race: ${lived(state.lives)} of ${plural(robots().length, "robot")}`);
       start.enable((mayRace() && !isDone()) || start.node === document.activeElement); // it keeps the focus

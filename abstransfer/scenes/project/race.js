@@ -1,7 +1,7 @@
 // A project: its pages of advice, how they drive, how long a life is, and the text to
 // hand in.  See Python's `project` and `project_card`.
 
-import { absprobPi } from "../engine/absprob_pi.js";
+import { absprobPi, ITERATIONS } from "../engine/absprob_pi.js";
 import { makeGuide, makeWorld } from "../engine/learning.js";
 import { parseMap } from "../engine/maps.js";
 import { abstractStates, FEATURES, navigationTasks } from "../engine/navigation.js";
@@ -9,20 +9,19 @@ import { PAPER_STEPS } from "../engine/paper.js";
 import { inducedPolicies, randomPolicy, uniformPolicy } from "../engine/policies.js";
 import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
 import { interval as around, quantile } from "../parts/bootstrap.js";
-import { mapTexts } from "../python.js";
+import { mapTexts, paper, spec } from "../python.js";
 import { count } from "../ui/dom.js";
 
-const SEED = 2015;
-export const GRAD = 300; // iterations
+const { seed: SEED } = paper;
 export const GUIDES = ["nd", "prob", "grad", "eager", "rand"];
 const half = (x) => Math.floor(x + 0.5);
 
 // Steps of a life and of advice, in the paper's proportions, rounded.
 export function scale({ goals, nCells }) {
-  const long = (PAPER_STEPS / 151200) * goals.length * nCells * 8;
+  const long = (PAPER_STEPS / spec.entries) * goals.length * nCells * 8;
   const unit = long >= 1e5 ? 1e4 : 100;
   const steps = unit * half(long / unit);
-  return { steps, tau: unit * half(((3.5 / 30) * steps) / unit) };
+  return { steps, tau: unit * half((spec.tauShare * steps) / unit) };
 }
 
 const pages = {}; // written before, by building and features
@@ -49,7 +48,7 @@ export function* preparing(map, features, advice) {
     drive("nd", nd);
     drive("prob", prob);
     let grad;
-    for (const { iteration, policy } of absprobPi(from, { iterations: GRAD })) {
+    for (const { iteration, policy } of absprobPi(from)) {
       grad = policy;
       found.iteration = iteration;
       yield found;
@@ -57,7 +56,7 @@ export function* preparing(map, features, advice) {
     if (advice !== "own") pages[key] = { nd, prob, grad };
     drive("grad", grad);
   } else for (const [name, policy] of Object.entries(pages[key])) drive(name, policy);
-  found.iteration = GRAD;
+  found.iteration = ITERATIONS;
   yield found;
 }
 

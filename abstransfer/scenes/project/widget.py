@@ -10,7 +10,7 @@ from ...abstraction import FEATURES
 from ...builders import BUILDERS
 from ...project.card import card_text
 from ...project.racing import Race
-from ...project.setup import ADVICE, GUIDES, Setup, run
+from ...project.setup import ADVICE, GUIDES, PAPER_ENTRIES, PAPER_TAU, Setup, run
 from ..base import MapTrait
 from ..parts.drawn import DrawnScene
 
@@ -75,6 +75,7 @@ class Project(DrawnScene):
     """
 
     scene = "project"
+    constants = {"entries": PAPER_ENTRIES, "tauShare": PAPER_TAU}
     map = MapTrait(SCHOOL).tag(sync=False)
     text = traitlets.Unicode(SCHOOL).tag(sync=True)
     tool = traitlets.Enum(TOOLS, "wall").tag(sync=True)
@@ -83,8 +84,8 @@ class Project(DrawnScene):
     advice = traitlets.Enum(ADVICE, "source").tag(sync=True)
     strategy = traitlets.Enum(("hard", "soft"), "hard").tag(sync=True)
     lives = traitlets.Int(5, min=1, max=20).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    goals = traitlets.Dict().tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    goals = traitlets.Dict().tag(sync=True, local=True)
 
     @property
     def setup(self) -> Setup:

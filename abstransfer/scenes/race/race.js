@@ -5,7 +5,6 @@ import { Run } from "../engine/learning.js";
 import { LABELS } from "../engine/navigation.js";
 import { ARMS } from "../engine/paper.js";
 import { NAMES, stateAt, sum, WINDOWS } from "../parts/runs.js";
-import { mapTexts } from "../python.js";
 import { barChart } from "../ui/bars.js";
 import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
@@ -21,21 +20,6 @@ const PROBLEM = ["map", "source", "luck", "steps", "policy", "tau"];
 
 defineScene("race", {
   title: "The race",
-  state: {
-    map: mapTexts.target,
-    source: mapTexts.source,
-    luck: 8,
-    t: 39,
-    steps: 30e6,
-    policy: {},
-    tau: 3.5e6,
-    full: false,
-    bet: "",
-    goals: {},
-  },
-  limits: { luck: [1, 50], t: [0, FIRST], steps: [6e5, 30e6], tau: [0, 30e6] },
-  local: ["policy", "bet", "goals"],
-
   build(scene) {
     let world = null; // the problem
     let robots = []; // { arm, name, look, first, steps, ends, goals, path }

@@ -50,11 +50,11 @@ class Race(RunScene):
     scene = "race"
     luck = traitlets.Int(8, min=1, max=50).tag(sync=True)
     t = traitlets.Int(39, min=0, max=FIRST).tag(sync=True)
-    policy = PolicyTrait()
+    policy = PolicyTrait().tag(local=True)
     tau = traitlets.Int(3_500_000, min=0, max=PAPER_STEPS).tag(sync=True)
     full = traitlets.Bool(False).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    goals = traitlets.Dict().tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    goals = traitlets.Dict().tag(sync=True, local=True)
 
     @property
     def arms(self) -> tuple[Arm, ...]:

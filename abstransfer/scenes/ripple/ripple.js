@@ -4,7 +4,6 @@
 import { runFor } from "../engine/absprob_pi.js";
 import { parseMap } from "../engine/maps.js";
 import { nameOf } from "../ui/sights.js";
-import { mapTexts } from "../python.js";
 import { formula } from "../ui/bars.js";
 import { building } from "../ui/building.js";
 import { count, make, number, place, plural } from "../ui/dom.js";
@@ -20,19 +19,6 @@ const TIES = { few: "in hardly any", some: "in a third", many: "in most" };
 
 defineScene("ripple", {
   title: "Values ripple out from the goal",
-  state: {
-    map: mapTexts.source,
-    task: 0,
-    success: 0.9,
-    k: 5,
-    cell: 78,
-    arrows: false,
-    bet: "",
-    ties: "",
-  },
-  limits: { task: [0, 999], success: [0.5, 1], k: [0, 9999], cell: [0, 9999] },
-  local: ["bet", "ties"],
-
   build(scene) {
     const { state } = scene;
     let [map, wave, totals, timer, end] = [null, null, [], null, null];

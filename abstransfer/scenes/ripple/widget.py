@@ -51,8 +51,8 @@ class Ripple(Scene):
     k = traitlets.Int(5, min=0).tag(sync=True)
     cell = traitlets.Int(78, min=0).tag(sync=True)
     arrows = traitlets.Bool(False).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    ties = traitlets.Unicode("").tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    ties = traitlets.Unicode("").tag(sync=True, local=True)
 
     @property
     def tasks(self) -> NavigationTasks:

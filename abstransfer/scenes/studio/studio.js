@@ -1,12 +1,12 @@
 // Map Studio, page 1: draw a building, walk a robot through it, and see what the
 // abstraction and Table 1 make of it.
 
+import { ITERATIONS } from "../engine/absprob_pi.js";
 import { navigationTasks } from "../engine/navigation.js";
 import { optimalValues } from "../engine/solvers.js";
 import { PAPER, ROWS } from "../engine/paper.js";
 import { makeEditor } from "../parts/editor.js";
-import { mapTexts } from "../python.js";
-import { follow, GRAD, solving } from "./walk.js";
+import { follow, solving } from "./walk.js";
 import { likeness, overlay, seenIn, stepText } from "./words.js";
 import { barChart } from "../ui/bars.js";
 import { armStyle, count, list, make, number, plural } from "../ui/dom.js";
@@ -23,24 +23,6 @@ const SHOWN = {
 
 defineScene("studio", {
   title: "Map Studio",
-  state: {
-    text: mapTexts.source,
-    tool: "walk",
-    show: "plain",
-    task: 7,
-    start: 80,
-    walk: "EENNW",
-    bet: "",
-  },
-  limits: {
-    tool: ["walk", "wall", "door", "room", "corridor", "goal"],
-    show: Object.keys(SHOWN),
-    task: [0, 10],
-    start: [0, 134],
-    bet: ["", "rand", "nd", "prob", "grad", "optimal", "skip"],
-  },
-  local: ["bet"],
-
   build(scene) {
     const rows = Object.fromEntries(ROWS.map((row) => [row, armStyle(row).name]));
     let [tasks, pointed] = [null, null];
@@ -172,10 +154,11 @@ defineScene("studio", {
         value: found?.row[row] ?? null,
         mark: marks[row],
         lit: row === scene.state.show,
-        note: row === "grad" && found && !isDone() && `climbing: ${found.iteration} of ${GRAD}`,
+        note: row === "grad" && found && !isDone() &&
+          `climbing: ${found.iteration} of ${ITERATIONS}`,
       })));
     }
-    const isDone = () => found?.iteration === GRAD;
+    const isDone = () => found?.iteration === ITERATIONS;
 
     function closing({ start, walk: letters }) {
       if (me.walked?.isOver && letters) {

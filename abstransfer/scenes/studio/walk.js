@@ -10,7 +10,6 @@ import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
 
 const LUCK = 1; // seed of the robot's slips
 const WORD = 4294967296;
-export const GRAD = 300; // iterations
 
 // Walk: letters N, E, S, W from a cell.  Return { cell, steps, total, isOver }, each
 // step { cell, d, a, next, r, slips }; `a` is the label of that edge, -1 a wall.
@@ -68,7 +67,7 @@ export function* solving(map) {
   const { nd, prob } = inducedPolicies(tasks, { v });
   drive("nd", nd);
   drive("prob", prob);
-  for (const { iteration, policy, value } of absprobPi(tasks, { iterations: GRAD })) {
+  for (const { iteration, policy, value } of absprobPi(tasks)) {
     found.policies.grad = policy;
     found.iteration = iteration;
     found.row.grad = value;

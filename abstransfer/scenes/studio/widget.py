@@ -58,7 +58,7 @@ class Studio(DrawnScene):
     task = traitlets.Int(7, min=0).tag(sync=True)
     start = traitlets.Int(80, min=0).tag(sync=True)
     walk = traitlets.Unicode("EENNW").tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
 
     @property
     def problem(self) -> str:

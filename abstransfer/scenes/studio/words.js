@@ -1,6 +1,6 @@
 // What Map Studio says of a cell and of a step, and what it lays over the cells.
 
-import { describe, LABELS } from "../engine/navigation.js";
+import { A, describe, LABELS } from "../engine/navigation.js";
 import { breakTies } from "../engine/policies.js";
 import { evaluatePolicy, optimalActions, optimalValues } from "../engine/solvers.js";
 import { PAPER } from "../engine/paper.js";
@@ -8,7 +8,6 @@ import { outcomes } from "./walk.js";
 import { SIDES } from "../parts/drawing.js";
 import { count, number, place } from "../ui/dom.js";
 
-const A = 8;
 const nameOf = (a) => LABELS[a].replaceAll("_", " ");
 const short = ({ width }, cell) => `(${Math.floor(cell / width) + 1}, ${(cell % width) + 1})`;
 

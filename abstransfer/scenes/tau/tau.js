@@ -3,7 +3,6 @@
 
 import { ARMS, PAPER_STEPS, TAUS } from "../engine/paper.js";
 import { NAMES, sum } from "../parts/runs.js";
-import { mapTexts } from "../python.js";
 import { barChart } from "../ui/bars.js";
 import { button } from "../ui/controls.js";
 import { count, make, millions } from "../ui/dom.js";
@@ -23,20 +22,6 @@ const GUIDES = ["nd", "prob", "grad", "rand"];
 
 defineScene("tau", {
   title: "How long to advise",
-  state: {
-    map: mapTexts.target,
-    source: mapTexts.source,
-    guide: "nd",
-    tau: 9e6,
-    luck: 1,
-    steps: 30e6,
-    all: false,
-    bet: "",
-    curves: {},
-  },
-  limits: { guide: GUIDES, tau: [0, 30e6], luck: [1, 50], steps: [6e5, 30e6] },
-  local: ["bet", "curves"],
-
   build(scene) {
     const { state } = scene;
     let place = state.map + state.source; // where `curves` come from

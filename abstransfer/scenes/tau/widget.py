@@ -42,8 +42,8 @@ class TauSlider(RunScene):
     guide = traitlets.Enum(GUIDES, "nd").tag(sync=True)
     tau = traitlets.CInt(9_000_000, min=0, max=PAPER_STEPS).tag(sync=True)
     all = traitlets.Bool(False).tag(sync=True)
-    bet = traitlets.Unicode("").tag(sync=True)
-    curves = traitlets.Dict().tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    curves = traitlets.Dict().tag(sync=True, local=True)
 
     def arm(self, strategy: str | None, tau: int | None = None) -> Arm:
         """Return what is learned: with a strategy, or without advice."""

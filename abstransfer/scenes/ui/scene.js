@@ -7,7 +7,7 @@ import { make } from "./dom.js";
 import * as address from "./state.js";
 import { dropBets, shell as makeShell } from "./texts.js";
 
-/** @import { Scene, Spec, State } from "../types.d.ts" */
+/** @import { Own, Scene, Spec, State } from "../types.d.ts" */
 
 const PAUSE = 400; // milliseconds between two changes of the URL
 
@@ -16,13 +16,31 @@ const PAUSE = 400; // milliseconds between two changes of the URL
  * the elements of the page that wait for it.
  *
  * @param {string} name
- * @param {Spec} spec
+ * @param {Own} own
  */
-export function defineScene(name, spec) {
-  python.spec = spec;
+export function defineScene(name, own) {
+  const spec = withState(own);
   python.mount = (element, ...more) => mount(element, name, spec, ...more);
   python.render = renderer(name, spec);
   if (!python.isWidget) mountAll(name, spec);
+}
+
+/**
+ * @param {Own} own
+ * @returns {Spec}
+ */
+function withState(own) {
+  const { fields } = python.spec;
+  const of = (get) =>
+    Object.fromEntries(Object.entries(fields).map(([name, field]) => [name, get(field)]));
+  const local = Object.keys(fields).filter((name) => fields[name].isLocal);
+  return {
+    ...own,
+    fields,
+    state: of(({ start }) => start),
+    limits: of(({ bounds }) => bounds),
+    local,
+  };
 }
 
 /** @type {(selector: string) => NodeListOf<HTMLElement>} */
@@ -83,6 +101,7 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
     const names = new Set(changed);
     changed.clear();
     paint(store.values, names);
+    me.warn(store.problems);
     for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
   }
   function stop() {
@@ -136,9 +155,13 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
     note(store.set(store.start), true);
     me.say("The scene is as it was at the start.");
   }
+  // What the address asks for: also that there is nothing any more, after a step back.
   function fromUrl() {
     const found = url && address.fromUrl(id, spec);
-    if (found) note(store.set({ ...linkable(store.start), ...found }), true);
+    if (found || (url && !location.hash)) {
+      note(store.set({ ...linkable(store.start), ...found }), true);
+      redraw(); // there may be something to say of what was refused
+    }
     return found;
   }
   const linkable = (values) =>
@@ -183,6 +206,7 @@ function mountAll(name, spec) {
       mount(element, name, spec, JSON.parse(element.dataset.options ?? "{}"));
     } catch (error) {
       console.error(error); // the still picture stays
+      element.querySelector(".ab-scene")?.remove();
     }
   }
 }

@@ -1,31 +1,66 @@
 // The state of a scene: named JSON values, in the URL, resettable.
 //
-// `limits` hold two numbers (a value is clamped) or a list of values (others are
-// refused).  The URL holds what differs from the start, as "microscope.t=24".
+// What a value may be, its field says; fields are made from Python's traits.  The URL
+// holds what differs from the start, as "microscope.t=24".
 
+import { parseMap } from "../engine/maps.js";
 import { mapTexts } from "../python.js";
 
-/** @import { Limits, Spec, State } from "../types.d.ts" */
+/** @import { Field, Spec, State } from "../types.d.ts" */
 
-/**
- * The value as a scene may use it, or undefined if it may not.
- *
- * @param {any} start
- * @param {any} bounds
- * @param {any} value
- */
-function accepted(start, bounds, value) {
-  if (typeof start === "number") {
-    const x = value === "" || value === null ? NaN : Number(value);
-    if (!Number.isFinite(x)) return undefined;
-    return bounds ? Math.min(Math.max(x, bounds[0]), bounds[1]) : x;
-  }
-  if (typeof start === "boolean") return value === true || value === "true";
-  if (typeof start === "string") {
-    const isKnown = typeof value === "string" && (!bounds || bounds.includes(value));
-    return isKnown ? value : undefined;
-  }
-  if (typeof value !== "string") return value ?? undefined;
+const MOST = 40_000; // characters of a text: a map of about 100 x 100 cells
+const FLAGS = { true: [true, "true"], false: [false, "false"] };
+const NONE = { value: undefined, problem: "" };
+
+// The value that a scene may use; undefined, and why, if it may not.  It may come from
+// anywhere: an address, Python, a field that the reader writes in.
+const READ = {
+  flag(value) {
+    if (FLAGS.true.includes(value)) return { value: true };
+    return FLAGS.false.includes(value) ? { value: false } : NONE;
+  },
+  whole: (value, bounds) => number(value, bounds, Math.round),
+  number: (value, bounds) => number(value, bounds, (x) => x),
+  choice: (value, bounds) => ({ value: bounds.includes(value) ? value : undefined }),
+  text(value, bounds) {
+    if (typeof value !== "string") return NONE;
+    if (value.length > MOST) return { problem: `it has more than ${MOST} characters` };
+    return { value: bounds && !bounds.includes(value) ? undefined : value };
+  },
+  map(value) {
+    const read = READ.text(value);
+    if (read.value === undefined) return read;
+    try {
+      parseMap(value);
+      return read;
+    } catch (error) {
+      return { problem: /** @type {Error} */ (error).message };
+    }
+  },
+  // Values of a list that may be in it, each once.
+  list(value, bounds) {
+    const list = parsed(value);
+    const isList = Array.isArray(list);
+    return { value: isList ? bounds.filter((each) => list.includes(each)) : undefined };
+  },
+  json(value, _, start) {
+    const found = parsed(value);
+    const isAlike = found && typeof found === "object" &&
+      Array.isArray(found) === Array.isArray(start);
+    return { value: isAlike ? found : undefined };
+  },
+};
+
+function number(value, bounds, round) {
+  const isRead = typeof value === "number" || (typeof value === "string" && value.trim());
+  const x = isRead ? Number(value) : NaN;
+  if (!Number.isFinite(x)) return NONE;
+  return { value: Math.min(Math.max(round(x), bounds[0]), bounds[1]) };
+}
+
+function parsed(value) {
+  if (typeof value !== "string") return value;
+  if (value.length > MOST) return undefined;
   try {
     return JSON.parse(value);
   } catch {
@@ -33,21 +68,35 @@ function accepted(start, bounds, value) {
   }
 }
 
+/**
+ * @param {Field} field
+ * @param {any} bounds of today: a map may have changed them
+ * @param {any} value
+ * @returns {{ value?: any, problem?: string }}
+ */
+export const accepted = (field, bounds, value) => READ[field.kind](value, bounds, field.start);
+
 const same = (a, b) => a === b || JSON.stringify(a) === JSON.stringify(b);
 
 /**
+ * The state of a scene; `problems` are the reasons why the last value of a name was
+ * refused.
+ *
  * @param {Spec} spec
  * @param {State} [options]
  */
 export function makeState(spec, options) {
   const limits = { ...spec.limits };
   const values = { ...spec.state };
+  const problems = {};
   // Return the names whose value changed.
   function set(changes) {
     const changed = [];
     for (const [name, value] of Object.entries(changes)) {
       if (!Object.hasOwn(values, name)) continue;
-      const next = accepted(spec.state[name], limits[name], value);
+      const { value: next, problem } = accepted(spec.fields[name], limits[name], value);
+      delete problems[name];
+      if (next === undefined) problems[name] = problem || "it is no value of this scene";
       if (next === undefined || same(next, values[name])) continue;
       values[name] = next;
       changed.push(name);
@@ -56,12 +105,11 @@ export function makeState(spec, options) {
   }
   function limit(name, bounds) {
     limits[name] = bounds;
-    const next = accepted(spec.state[name], bounds, values[name]);
-    return set({ [name]: next ?? bounds[0] });
+    return set({ [name]: accepted(spec.fields[name], bounds, values[name]).value ?? bounds[0] });
   }
   set(options ?? {});
   const start = { ...values };
-  return { values, start, limits, set, limit };
+  return { values, start, limits, problems, set, limit };
 }
 
 // ---- the URL: maps that come along go by their names

@@ -31,6 +31,7 @@ export function shell(scene, body, reset) {
     make("summary", {}, "The numbers behind the picture"),
     table,
   );
+  const warning = make("p", { class: "ab-note ab-now", hidden: true });
   let rows = null;
   let next = null;
   let timer = null;
@@ -54,6 +55,16 @@ export function shell(scene, body, reset) {
     told = text;
     closing.hidden = !text;
     closing.textContent = text;
+    if (text) scene.say(text);
+  };
+
+  // Say which values were refused, and why; read aloud when it changes.
+  scene.warn = (problems) => {
+    const all = Object.entries(problems).map(([name, why]) => `“${name}” stays as it was: ${why}.`);
+    const text = all.join(" ");
+    if (text === warning.textContent) return;
+    warning.textContent = text;
+    warning.hidden = !text;
     if (text) scene.say(text);
   };
 
@@ -86,6 +97,7 @@ export function shell(scene, body, reset) {
   return make(
     "div",
     { class: "ab-scene", role: "group", "aria-label": `Scene: ${scene.spec.title}` },
+    warning,
     body,
     closing,
     foot,
@@ -104,7 +116,7 @@ export function bindBets(scene) {
   const bets = (scene.bets = {});
   scene.bet = (name, { question, options }) => {
     bets[name] = options;
-    if (scene.limits[name]) scene.limits[name] = ["", ...Object.keys(options), "skip"];
+    scene.limits[name] = ["", ...Object.keys(options), "skip"];
     const choice = scene.choice(name, { label: question, options: { ...options, skip: SKIP } });
     choice.classList.add("ab-bet");
     const before = kept(key(scene, name));

@@ -102,11 +102,6 @@ test("chances become whole numbers as in Python", () => {
   assert.deepEqual(at.integerBounds([0.3, 0.7], 65536), [19661, 65536]); // of 19660.8
 });
 
-test("the arms are Python's", () => {
-  assert.deepEqual(at.ARMS, golden.arms);
-  assert.deepEqual(at.TAUS, golden.taus);
-});
-
 test("steps can be taken back, and any step gone to", () => {
   const facts = golden.cases.find((c) => c.options.max_episode === 20);
   const [run, straight] = [startRun(facts), startRun(facts)];

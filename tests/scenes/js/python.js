@@ -1,13 +1,6 @@
-// What Python says to a bundle, for tests that run without a page.
+// What Python says to a bundle, for tests that run without a page: a file of JSON that
+// pytest has written, named on the command line.
 
 import { readFileSync } from "node:fs";
 
-const read = (path) => readFileSync(new URL(`../../../${path}`, import.meta.url), "utf8");
-const { arms, strategies } = JSON.parse(read("abstransfer/palette.json"));
-
-globalThis.python = {
-  palette: { arms, strategies },
-  mapTexts: { source: read("data/maps/source.txt"), target: read("data/maps/target.txt") },
-  workerSource: read("abstransfer/scenes/_bundles/worker.js"),
-  isWidget: true,
-};
+globalThis.python = JSON.parse(readFileSync(Deno.args[0], "utf8"));

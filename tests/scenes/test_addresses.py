@@ -1,0 +1,94 @@
+"""Addresses that ask a scene for what it cannot show, and steps back in the history."""
+
+import pytest
+from scene_tab import bare
+
+from abstransfer.scenes import KINDS, Microscope, Race
+
+NO_GOAL = "+---+\n|   |\n+---+"
+ODD = {  # by what a field holds: what an address may ask for
+    "flag": ["maybe", "[]"],
+    "whole": ["1.5", "-7", "1e9", "[1]", "none"],
+    "number": ["1e-300", "Infinity", "[]"],
+    "choice": ["constructor", "[]"],
+    "text": ["", "no map", "[" * 50_000],
+    "map": [
+        "no map",
+        NO_GOAL,
+        "+---+\n|\t *|\n+---+",
+        "+---+\n|  *|\n+--",
+        "*" * 1_000_000,
+    ],
+    "list": ["[1]", "{}", "nd"],
+    "json": ["[[0.5, 0.5, 0.5]]", "[null, 1]", "{}", "[" * 50_000],
+}
+# Mount the scene with each odd value in turn; what is wrong then, if anything.
+TRY = """async ([name, cases]) => {
+    const wrong = [];
+    const complain = ({ message }) => {
+        if (!message.startsWith("ResizeObserver loop")) wrong.push([place, message]);
+    };
+    let place = null;
+    addEventListener("error", complain);
+    for (const [field, odd] of cases) {
+        place = `${field}=${odd.slice(0, 20)}`;
+        const div = document.body.appendChild(document.createElement("div"));
+        div.className = "abstransfer-scene";
+        try {
+            const { leave } = said[name].mount(div, { [field]: odd }, { url: false });
+            await new Promise(requestAnimationFrame);
+            await new Promise(requestAnimationFrame);
+            if (!div.matches(".ab-live")) wrong.push([place, "it does not live"]);
+            leave();
+        } catch (error) {
+            wrong.push([place, `${error}`]);
+        }
+        div.remove();
+    }
+    removeEventListener("error", complain);
+    return wrong;
+}"""
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_no_odd_value_of_any_field_stops_a_scene(open_scene, name):
+    tab = open_scene(bare(KINDS[name]))
+    cases = [
+        [of, odd]
+        for of, field in KINDS[name].spec()["fields"].items()
+        if not (field["isLocal"] and field["kind"] == "json")  # no part of an address
+        for odd in ODD[field["kind"]]
+    ]
+
+    assert len(cases) > 15
+    assert tab.page.evaluate(TRY, [name, cases]) == []
+    assert tab.problems == []
+
+
+@pytest.mark.parametrize("name", ["race", "ballot", "ripple", "tau"])
+def test_a_map_that_is_none_leaves_the_start_and_a_sentence(open_scene, name):
+    tab = open_scene(bare(KINDS[name]), query=f"#{name}.map=no%20map")
+    warning = tab.root.locator(".ab-body").locator("xpath=preceding-sibling::p")
+
+    assert warning.inner_text().startswith("“map” stays as it was: ")
+    assert tab.problems == []
+
+
+def test_the_first_address_of_a_page_restores_the_start(open_scene):
+    tab = open_scene(bare(Microscope))
+    slider = tab.root.get_by_role("slider", name="Step")
+    tab.page.evaluate("location.hash = '#microscope.t=150&microscope.luck=7'")
+    tab.page.wait_for_function("document.querySelector('[type=range]').value === '7'")
+    assert slider.input_value() == "150"
+
+    tab.page.go_back()
+    tab.page.wait_for_function("document.querySelector('[type=range]').value === '4'")
+    assert slider.input_value() == "111"
+
+
+def test_a_link_within_the_page_leaves_a_scene_as_it_is(open_scene):
+    tab = open_scene(bare(Race), query="#race.t=77")
+    tab.page.evaluate("location.hash = '#a-scene'")
+    tab.settle()
+
+    assert tab.root.get_by_role("slider", name="Step").input_value() == "77"
