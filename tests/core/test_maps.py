@@ -552,3 +552,11 @@ def test_no_tile_at_all_is_refused(source, rows, columns):
     said = f"rows and columns must be at least 1, got {rows}, {columns}"
 
     assert message(tile_map, source, rows, columns) == said
+
+
+def test_a_map_put_into_the_folder_is_known_by_its_name(tmp_path, monkeypatch):
+    (tmp_path / "maps").mkdir()
+    (tmp_path / "maps" / "target_paper.txt").write_text(SMALLEST)
+    monkeypatch.setattr("abstransfer.maps.DATA", tmp_path)
+
+    assert str(read_map("target_paper")) == str(parse_map(SMALLEST))
