@@ -110,7 +110,7 @@ def own_trace(tasks: NavigationTasks, q0: float, rng, update: Callable) -> list[
     """
     settings = Settings(tasks.mdp, q0=q0, trace=STEPS)
     setup = set_up(settings)
-    run = RunState(setup, rng)
+    run = RunState(setup, rng, settings.q0)
     q = run.plain.q
     rows = []
     for t in range(1, STEPS + 1):
