@@ -113,7 +113,7 @@ def abstract_states(
 
 def check_features(features: Sequence[str]) -> tuple[str, ...]:
     """Return known features in the order of FEATURES; refuse others by name."""
-    for feature in features:
+    for feature in np.ravel(features).tolist():
         if feature not in FEATURES:
             raise ValueError(f"features must be among {FEATURES}, got {feature!r}")
     return tuple(name for name in FEATURES if name in features)

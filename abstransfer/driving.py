@@ -150,9 +150,7 @@ def table1(
         target = parts_of(target, "target")
         first = next(target)
         if (source[0].features, source[0].actions) != (first.features, first.actions):
-            raise ValueError(
-                "source and target must have the same features and actions"
-            )
+            raise ValueError("target must have the same features and actions as source")
         target = chain([first], target)
     policies = abstract_policies(source, progress=progress)
     result = {}

@@ -137,12 +137,10 @@ class Map:
             raise ValueError(f"cell must lie within {height} x {width}, got {cell}")
         wall = "-" if direction in ("N", "S") else "|"
         char = {"wall": wall, "door": DOOR, "open": OPEN}
-        for name, value, known in (
-            ("direction", direction, DIRECTIONS),
-            ("kind", kind, tuple(char)),
-        ):
-            if value not in known:
-                raise ValueError(f"{name} must be one of {known}, got {value!r}")
+        known = {"direction": DIRECTIONS, "kind": tuple(char)}
+        for name, value in (("direction", direction), ("kind", kind)):
+            if value not in known[name]:
+                raise ValueError(f"{name} must be one of {known[name]}, got {value!r}")
         chars = self.chars.copy()
         row, column = 2 * np.array(cell) + 1 + STEP[DIRECTIONS.index(direction)]
         chars[row, column] = char[kind]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:  # SciPy takes longer to load than all else: only where it is 
     from scipy.sparse import csr_array
 
 TIE = 1e-9  # actions whose values differ by less, in rewards, are equally good
-NEAR, SWEEPS = 0.1, 1000  # sweep until no value moves by more, in rewards; at most
+NEAR, SWEEPS = 0.01, 1000  # sweep until no value moves by more, in rewards; at most
 
 
 def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
@@ -37,7 +37,8 @@ def transition_matrix(mdp: MDP, policy: np.ndarray) -> csr_array:
     array([[0.5, 0.5],
            [0. , 0. ]])
     """
-    policy = np.where(mdp.terminal[:, None], 0.0, check_policy(policy, mdp))
+    policy = check_policy(policy, mdp)
+    policy[mdp.terminal] = 0.0
     state, action, next_state, prob = mdp.transitions
     weight = policy.ravel()[state * mdp.n_actions + action] * prob
     used = np.flatnonzero(weight)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mdp import MDP, as_array, check_choice
+from ..mdp import MDP, as_array, check_choice, check_mdp
 from ..policies import check_rho, uniform_policy
 from ..solvers import TIE, action_values, factorize, transition_matrix
 
@@ -71,7 +71,9 @@ def abstract_gradient(
     >>> abstract_gradient(bump, np.array([[1.0, 0.0]]), rho, start)
     (-1.0, array([[ 0. , -0.5]]), array([1.]))
     """
-    blocks = (mdp,) if isinstance(mdp, MDP) else tuple(mdp)
+    blocks = tuple(mdp) if isinstance(mdp, Iterable) else (mdp,)
+    for block in blocks or (None,):
+        check_mdp(block)
     ends = np.cumsum([block.n_states for block in blocks])
     abstract_policy = as_array("policy", abstract_policy, np.float64, 2)
     n_abstract, n_actions = abstract_policy.shape

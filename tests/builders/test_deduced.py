@@ -18,6 +18,7 @@ from abstransfer import (
     read_map,
     uniform_policy,
 )
+from abstransfer.navigation import tasks_in_parts
 
 GRAD = -30.27  # design 1.7: pi_AbsGrad in the source map
 ALL = np.ones((1, 2), bool)
@@ -157,6 +158,21 @@ def test_the_union_weighs_its_tasks_by_their_cells():
     assert together[0] == pytest.approx(value)
     np.testing.assert_allclose(together[1], gradient, atol=1e-10)
     np.testing.assert_allclose(together[2], visits, atol=1e-10)
+
+
+@pytest.mark.parametrize("method", [absprob_pi, natural_ascent])
+def test_blocks_of_the_union_are_climbed_as_the_union(source, method):
+    blocks = list(tasks_in_parts(read_map("source"), states=300))
+    assert len(blocks) == 5
+    mdps = [block.mdp for block in blocks]
+    start = np.random.default_rng(0).dirichlet(np.ones(source.mdp.n_states))
+
+    together, apart = (
+        method(mdp, source.rho, source.possible, start=start, iterations=5)
+        for mdp in (source.mdp, mdps)
+    )
+    np.testing.assert_allclose(apart.policy, together.policy, atol=1e-12)
+    np.testing.assert_allclose(apart.history, together.history)
 
 
 # AbsProb-PI
@@ -419,6 +435,10 @@ def test_the_seed_of_random_starts_decides(source):
         ({"iterations": -1}, "iterations must not be negative, got -1"),
         ({"softness": 1.5}, "softness must lie in 0..1, got 1.5"),
         ({"softness": -0.1}, "softness must lie in 0..1, got -0.1"),
+        ({"softness": None}, "softness must hold numbers, got object"),
+        ({"iterations": 1.5}, "iterations must hold int64, got float64"),
+        ({"iterations": "3"}, "iterations must hold numbers, got <U1"),
+        ({"possible": None}, "possible must hold numbers, got object"),
     ],
 )
 def test_a_bad_option_is_refused_by_name(options, said):
@@ -430,6 +450,44 @@ def test_a_floor_that_leaves_no_room_is_refused(floor):
     assert (
         refusal(natural_ascent, floor=floor) == f"floor must lie in 0..1/A, got {floor}"
     )
+
+
+@pytest.mark.parametrize(
+    ("mdp", "policy", "rho", "said"),
+    [
+        (bump(), [[0.5, 0.5]], [0, 1], r"rho must lie in 0..0, got 1"),
+        (bump(), [[0.5, 0.5]], [0], r"rho must have shape \(2,\), got \(1,\)"),
+        (bump(), [[0.5, 0.5]], None, "rho must hold numbers, got object"),
+        (bump(), [0.5, 0.5], ONE, "policy must have shape 2 axes"),
+        (bump(), [[np.nan, 1]], ONE, "policy must not be negative or nan"),
+        (bump(), [[1 / 3] * 3], ONE, r"policy must have shape \(2, 2\), got \(2, 3"),
+        (None, [[0.5, 0.5]], ONE, "mdp must be an MDP, as in tasks.mdp, got NoneType"),
+        ([], [[0.5, 0.5]], ONE, "mdp must be an MDP, as in tasks.mdp, got NoneType"),
+        ([None], [[0.5, 0.5]], ONE, "mdp must be an MDP, as in tasks.mdp, got None"),
+    ],
+)
+def test_a_gradient_of_what_does_not_match_is_refused(mdp, policy, rho, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        abstract_gradient(mdp, policy, rho)
+
+
+@pytest.mark.parametrize(
+    ("possible", "n", "said"),
+    [
+        (
+            [[True, True], [False, False]],
+            2,
+            "possible must leave every abstract state an action, "
+            "but abstract state 1 has none",
+        ),
+        ([True, False], 2, "possible must have shape 2 axes"),
+        ([[0.3, 1.0]], 2, "possible must hold bool, got float64"),
+        ([[True]], 1.5, "n must hold int64, got float64"),
+    ],
+)
+def test_random_starts_where_nothing_can_be_drawn_are_refused(possible, n, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        random_starts(possible, n, rng=0)
 
 
 @pytest.mark.parametrize("method", [absprob_pi, natural_ascent])

@@ -1,11 +1,14 @@
 """Table 1 of the paper: every entry pinned, and the paper's orders."""
 
+import weakref
+
 import numpy as np
 import pytest
 
 from abstransfer import (
     abstract_policies,
     evaluate_policy,
+    executed_values,
     format_table1,
     navigation_tasks,
     parse_map,
@@ -14,7 +17,9 @@ from abstransfer import (
     uniform_policy,
 )
 from abstransfer.driving import PAPER, ROWS, column
+from abstransfer.navigation import tasks_in_parts
 
+ROOM = parse_map("+---+\n|.d*|\n+---+")
 # What this reading gives, by row: source, target (design 1.7).
 PINNED = {
     "rand": (-88.74, -97.05),
@@ -187,6 +192,38 @@ def test_a_column_is_the_mean_over_all_cells_goals_included(source):
     assert rand == pytest.approx(v[~source.mdp.terminal].mean() * 134 / 135)
 
 
+# In parts
+
+
+@pytest.mark.parametrize("states", [1000, 5000])
+def test_table1_of_parts_is_that_of_the_union(result, states):
+    """Source in one part or two, target in 4 or 19: not to be told but by rounding."""
+    source, target = (
+        tasks_in_parts(read_map(name), states=states) for name in ("source", "target")
+    )
+    parts = table1(source, target)
+
+    assert list(parts) == list(result)
+    assert parts["unseen"] == result["unseen"]
+    for name in ("source", "target"):
+        assert list(parts[name]) == list(result[name])
+        assert parts[name] == pytest.approx(result[name], abs=1e-6)
+
+
+def test_one_part_of_the_target_is_held_at_a_time(source):
+    made = []
+
+    def target():
+        for part in tasks_in_parts(read_map("target"), states=3000):
+            assert sum(seen() is not None for seen in made[1:]) <= 1, "first and last"
+            made.append(weakref.ref(part))
+            yield part
+            del part
+
+    column(target(), {})
+    assert len(made) > 4
+
+
 # Building
 
 
@@ -264,6 +301,46 @@ def test_a_target_with_other_features_or_actions_is_refused(source, options):
 
     with pytest.raises(ValueError, match="must have the same features and actions"):
         table1(source, other)
+
+
+POLICY = np.full((2048, 8), 1 / 8)
+
+
+@pytest.mark.parametrize(
+    ("policy", "said"),
+    [
+        (POLICY[:5], r"shape \(2048, 8\), got \(5, 8\)"),
+        (POLICY[:, :4] * 2, r"shape \(2048, 8\), got \(2048, 4\)"),
+        (POLICY[0], r"shape \(2048, 8\), got \(8,\)"),
+        (None, "numbers, got object"),
+        (POLICY * np.nan, "not be negative or nan"),
+        (POLICY * -1, "not be negative or nan"),
+        (POLICY * 8, "sum to 1 in each row"),
+        (POLICY * 0, "sum to 1 in each row"),
+    ],
+    ids=["rows", "columns", "axes", "none", "nan", "negative", "eight", "zero"],
+)
+def test_advice_that_is_no_policy_of_the_tasks_is_refused(source, policy, said):
+    with pytest.raises(ValueError, match=rf"^advice must (have |hold )?{said}"):
+        executed_values(source, {"mine": policy})
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda thing: abstract_policies(thing),
+        lambda thing: executed_values(thing, {"mine": POLICY}),
+        lambda thing: column(thing, {}),
+        lambda thing: table1(thing, thing),
+        lambda thing: table1(navigation_tasks(ROOM), thing),
+    ],
+)
+@pytest.mark.parametrize(
+    "thing", [ROOM, navigation_tasks(ROOM).mdp, [], [ROOM]], ids=repr
+)
+def test_what_is_no_tasks_is_refused(call, thing):
+    with pytest.raises(ValueError, match="must be NavigationTasks, got "):
+        call(thing)
 
 
 # Printing

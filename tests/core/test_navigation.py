@@ -19,11 +19,13 @@ from abstransfer import (
     LABELS,
     action_values,
     describe,
+    navigation,
     navigation_tasks,
     optimal_values,
     parse_map,
     read_map,
 )
+from abstransfer.navigation import tasks_in_parts
 
 STEPS = {"N": (-1, 0), "E": (0, 1), "S": (1, 0), "W": (0, -1)}
 EXAMPLE = (
@@ -291,12 +293,6 @@ def test_the_example_state_of_the_paper_occurs_in_the_source_map():
     assert EXAMPLE in {describe(z) for z in tasks.rho}
 
 
-def test_there_are_eleven_features_and_eight_labels():
-    assert len(FEATURES) == 11
-    assert FEATURES[:8] == LABELS
-    assert set(FEATURES[8:]) == {"near_goal", "almost_near_goal", "in_room"}
-
-
 # Invariants
 
 
@@ -522,27 +518,62 @@ def test_tasks_to_keep_are_numbered_over_all_maps():
     np.testing.assert_array_equal(kept.rho, navigation_tasks(small).rho)
 
 
-# Describing
+# In parts
 
 
-def test_a_description_names_the_true_features():
-    assert describe(0) == "(no feature holds)"
-    assert describe(1 << 10) == "in_room"
-    assert describe(np.int64(2047)) == " ^ ".join(FEATURES)
+@pytest.mark.parametrize("states", [1, 500, 1485, 10_000])
+def test_the_parts_one_after_the_other_are_the_union(states):
+    maps = [read_map("source"), parse_map(BUILDING)]
+    options = {"gamma": 0.9, "unavailable": "masked", "success": 0.8}
+    union, parts = (
+        navigation_tasks(maps, **options),
+        list(tasks_in_parts(maps, states=states, **options)),
+    )
+
+    sizes = [part.mdp.n_states for part in parts]
+    assert len(parts) == {1: 12, 500: 4, 1485: 2, 10_000: 1}[states]
+    before = np.cumsum([0, *sizes[:-1]])
+    shifted = [
+        part.mdp.next_state + first for part, first in zip(parts, before, strict=True)
+    ]
+    np.testing.assert_array_equal(np.concatenate(shifted), union.mdp.next_state)
+    for name in ("prob", "reward", "terminal", "allowed"):
+        found = np.concatenate([getattr(part.mdp, name) for part in parts])
+        np.testing.assert_array_equal(found, getattr(union.mdp, name))
+    for name in ("rho", "available", "labels", "cell", "building", "goal"):
+        found = np.concatenate([getattr(part, name) for part in parts])
+        np.testing.assert_array_equal(found, getattr(union, name))
+    assert {part.mdp.gamma for part in parts} == {0.9}
 
 
-def test_the_paper_s_example_is_the_conjunction_of_three_features():
-    bits = [FEATURES.index(name) for name in EXAMPLE.split(" ^ ")]
+def test_a_part_is_made_when_it_is_asked_for(monkeypatch):
+    made = []
 
-    assert describe(sum(1 << bit for bit in bits)) == EXAMPLE
+    def watched(*arguments, **options):
+        made.append(options["keep"])
+        return navigation_tasks(*arguments, **options)
+
+    monkeypatch.setattr(navigation, "navigation_tasks", watched)
+    parts = tasks_in_parts(read_map("target"), states=600)
+    next(parts)
+
+    assert [list(keep) for keep in made] == [[0, 1]]
 
 
-@pytest.mark.parametrize(("z", "features"), [(-1, FEATURES), (2048, FEATURES), (1, ())])
-def test_a_number_that_is_no_abstract_state_is_refused(z, features):
-    said = rf"z must lie in 0\.\.{2 ** len(features) - 1}, got {z}"
-
-    with pytest.raises(ValueError, match=said):
-        describe(z, features)
+@pytest.mark.parametrize(
+    ("tasks", "got"),
+    [
+        (parse_map(BUILDING), "Map"),
+        (shipped_tasks("source").mdp, "MDP"),
+        (None, "NoneType"),
+        ([parse_map(BUILDING)], "Map"),
+        ([], "no part of any"),
+    ],
+    ids=["map", "mdp", "none", "maps", "empty"],
+)
+def test_what_is_no_tasks_is_refused(tasks, got):
+    with pytest.raises(ValueError, match=f"^road must be NavigationTasks, got {got}$"):
+        list(navigation.parts_of(tasks, "road"))
 
 
 # Refusals
@@ -566,6 +597,12 @@ def test_a_number_that_is_no_abstract_state_is_refused(z, features):
         ),
         ({"near": -1}, "0 <= near <= almost_near must hold, got -1, 8"),
         ({"near": 9}, "0 <= near <= almost_near must hold, got 9, 8"),
+        ({"near": "5"}, "near must hold numbers, got <U1"),
+        ({"near": 0.5}, "near must hold int64, got float64"),
+        ({"almost_near": None}, "almost_near must hold numbers, got object"),
+        ({"gamma": "0.9"}, "gamma must hold numbers, got <U3"),
+        ({"success": None}, "success must satisfy 0 < success <= 1, got None"),
+        ({"features": None}, f"features must be among {FEATURES}, got None"),
         (
             {"features": ["near_goal", "sees_gold"]},
             f"features must be among {FEATURES}, got 'sees_gold'",
@@ -586,7 +623,7 @@ def test_a_bad_option_is_refused_by_name(options, said):
     assert str(refusal.value) == said
 
 
-@pytest.mark.parametrize("maps", [[], "ab", [BUILDING]], ids=["none", "text", "texts"])
+@pytest.mark.parametrize("maps", [[], "ab", [BUILDING], None, 5], ids=repr)
 def test_what_is_no_map_is_refused(maps):
     with pytest.raises(ValueError, match="maps must be one Map or several, got"):
         navigation_tasks(maps)

@@ -21,7 +21,6 @@ from abstransfer import (
     read_map,
     restrict_policy,
     uniform_policy,
-    unseen_share,
 )
 from abstransfer.policies import ground, spoken
 from abstransfer.solvers import evaluate_policy
@@ -304,7 +303,7 @@ def test_a_beta_below_zero_is_refused(beta):
         beta_policy(ROWS, beta)
 
 
-# Fallback, unseen abstract states, masks
+# Fallback, masks
 
 
 @BUILDERS
@@ -324,14 +323,6 @@ def test_an_abstract_state_of_goals_only_draws_from_the_fallback(induce):
     policy = induce(np.zeros((2, 2)), np.zeros(2, int), np.array([[False, True]]))
 
     assert policy.tolist() == [[0, 1]]
-
-
-@pytest.mark.parametrize(
-    ("rho", "voted", "share"),
-    [([0, 1, 1, 2], [0, 1], 1 / 4), ([3, 3], [3], 0), ([3, 3, 4], [], 1)],
-)
-def test_the_unseen_share_counts_states(rho, voted, share):
-    assert unseen_share(np.array(rho), np.array(voted, int)) == share
 
 
 def test_a_uniform_policy_draws_from_its_mask():
@@ -361,7 +352,7 @@ def test_a_restricted_policy_keeps_its_proportions():
         (
             [0, 0, 0],
             np.ones((1, 2)),
-            "policy must have shape (S, A) and rho shape (S,), got (2, 2) and (3,)",
+            "rho must have shape (2,), got (3,)",
         ),
         ([0, 1], np.ones((1, 2)), "rho must lie in 0..0, got 1"),
         ([0, -1], np.ones((2, 2)), "rho must lie in 0..1, got -1"),
@@ -413,3 +404,50 @@ def test_advice_drives_a_compass_robot_as_it_drives_one_that_goes_by_labels():
 def test_a_label_that_the_advice_does_not_know_is_refused():
     with pytest.raises(ValueError, match="labels must lie below 2, got 2"):
         ground(np.array([[0.5, 0.5]]), np.zeros(1, int), np.array([[0, 1, 2, -1]]))
+
+
+POLICY, MASK = np.array([[0.5, 0.5], [1.0, 0.0]]), np.ones((2, 2), bool)
+RHO, LABELLED = np.zeros(2, int), np.array([[0, 1, -1], [0, 0, 1]])
+NAN = np.array([[np.nan, 1.0]])
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments", "said"),
+    [
+        (uniform_policy, ([True, False],), "mask must have shape 2 axes"),
+        (uniform_policy, ([[0.5, 1.0]],), "mask must hold bool, got float64"),
+        (uniform_policy, (None,), "mask must hold numbers, got object"),
+        (
+            restrict_policy,
+            (-POLICY, MASK),
+            "policy must be finite and not negative: at state 0, action 0 it was -0.5",
+        ),
+        (restrict_policy, (NAN, MASK[:1]), "policy must be finite and not negative"),
+        (
+            restrict_policy,
+            (POLICY, MASK[:1]),
+            r"mask must have shape \(2, 2\), got \(1, 2\)",
+        ),
+        (break_ties, ([True, False],), "optimal must have shape 2 axes"),
+        (break_ties, (POLICY,), "optimal must hold bool, got float64"),
+        (
+            beta_policy,
+            ([[0.5, 0.5], [0.0, 0.0]], 2),
+            "abstract_policy must leave every abstract state an action, "
+            "but abstract state 1 has none",
+        ),
+        (beta_policy, (NAN, 2), "abstract_policy must be finite and not negative"),
+        (beta_policy, (POLICY[0], 2), "abstract_policy must have shape 2 axes"),
+        (beta_policy, (POLICY, "2"), "beta must hold numbers, got <U1"),
+        (ground, (NAN, RHO[:1], LABELLED[:1]), "advice must be finite"),
+        (ground, (POLICY, RHO, LABELLED[:1]), "rho must have shape"),
+        (ground, (POLICY, RHO + 2, LABELLED), "rho must lie in 0..1, got 2"),
+        (spoken, (POLICY, LABELLED, 2), r"labels must have shape \(2, 2\)"),
+        (count_votes, (-POLICY, RHO, 1), "policy must be finite and not negative"),
+        (count_votes, (POLICY, RHO + 0.5, 1), "rho must hold int64, got float64"),
+        (count_votes, (POLICY, None, 1), "rho must hold numbers, got object"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_by_name(function, arguments, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        function(*arguments)

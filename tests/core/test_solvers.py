@@ -11,8 +11,11 @@ from abstransfer import (
     MDP,
     action_values,
     evaluate_policy,
+    navigation_tasks,
     optimal_actions,
     optimal_values,
+    parse_map,
+    solvers,
     transition_matrix,
     value_iteration,
 )
@@ -240,6 +243,38 @@ def test_any_mixture_of_optimal_actions_reaches_the_optimal_values(mdp):
     np.testing.assert_allclose(evaluate_policy(mdp, mixture), v, atol=1e-6)
 
 
+@given(mdps(masks=True))
+@settings(deadline=None, max_examples=30)
+def test_however_few_sweeps_go_before_the_optimal_values_are_the_same(mdp):
+    v = optimal_values(mdp)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(solvers, "SWEEPS", 0)
+        np.testing.assert_allclose(optimal_values(mdp), v, atol=1e-8)
+
+
+def test_sweeps_reach_what_is_far_before_the_first_round(monkeypatch):
+    """A corridor of 300 cells: policy iteration alone would carry news by the cell."""
+    n, rounds = 300, []
+    cell = np.arange(n)
+    mdp = MDP(
+        np.stack([np.maximum(cell - 1, 0), np.minimum(cell + 1, n - 1)], 1)[:, :, None],
+        np.ones((n, 2, 1)),
+        -1.0 * (cell < n - 1),
+        cell == n - 1,
+        0.99,
+    )
+
+    def counted(*arguments):
+        rounds.append(arguments)
+        return evaluate_policy(*arguments)
+
+    monkeypatch.setattr(solvers, "evaluate_policy", counted)
+    v = optimal_values(mdp)
+
+    np.testing.assert_allclose(v, -100 * (1 - 0.99 ** (n - 1 - cell)), atol=1e-9)
+    assert len(rounds) <= 3
+
+
 # Ties
 
 
@@ -293,3 +328,45 @@ def test_a_policy_that_does_not_sum_to_one_is_refused(corridor):
         ValueError, match="policy must sum to 1 in each row: at state 0"
     ):
         evaluate_policy(corridor, np.ones((3, 2)))
+
+
+VALUES = np.zeros(3)
+
+
+@pytest.mark.parametrize(
+    ("v", "said"),
+    [
+        (np.zeros(18_900), r"v must have shape \(3,\), got \(18900,\)"),
+        (np.zeros((3, 1)), r"v must have shape \(3,\), got \(3, 1\)"),
+        ([0, np.nan, 0], "v must be finite, got"),
+        ([0, np.inf, 0], "v must be finite, got"),
+        (None, "v must hold numbers, got object"),
+    ],
+)
+@pytest.mark.parametrize("function", [action_values, optimal_actions])
+def test_values_of_another_mdp_are_refused(corridor, function, v, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        function(corridor, v)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda tasks: evaluate_policy(tasks, np.ones((3, 2)) / 2),
+        lambda tasks: transition_matrix(tasks, np.ones((3, 2)) / 2),
+        lambda tasks: action_values(tasks, VALUES),
+        lambda tasks: optimal_actions(tasks, VALUES),
+        lambda tasks: optimal_values(tasks),
+        lambda tasks: next(value_iteration(tasks)),
+    ],
+)
+def test_tasks_are_refused_where_their_mdp_is_wanted(call):
+    tasks = navigation_tasks(parse_map("+---+\n|.d*|\n+---+"))
+
+    with pytest.raises(ValueError, match="^mdp must be an MDP, as in tasks.mdp, got N"):
+        call(tasks)
+
+
+def test_transitions_of_what_is_no_policy_are_refused(corridor):
+    with pytest.raises(ValueError, match="^policy must not be negative or nan"):
+        transition_matrix(corridor, np.tile([-1.0, 2.0], (3, 1)))
