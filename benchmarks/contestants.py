@@ -40,7 +40,8 @@ class Fast:
 
     def __init__(self, settings, n_runs):
         self.n_runs = n_runs
-        self.runs = Together(set_up(settings), range(n_runs))
+        runs = [(seed, settings.q0) for seed in range(n_runs)]
+        self.runs = Together(set_up(settings), runs)
         self.advance(1, 0)  # compiles
 
     def advance(self, first, last):
@@ -53,7 +54,8 @@ class Plain:
     n_runs = 1
 
     def __init__(self, settings):
-        self.runs = Together(set_up(settings)._replace(tables=None), [0])
+        setup = set_up(settings)._replace(tables=None)
+        self.runs = Together(setup, [(0, settings.q0)])
         self.advance(1, 0)  # compiles
 
     def advance(self, first, last):
