@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._rng import STARTS, STEPS, WORD, compiled, fill, inlined, next_word
-from ._simd import MIDDLE, count_below, put
+from ._simd import MIDDLE, count_below, put, size
 from .loop import CUTS, GOALS
 
 BLOCK = 256  # steps whose words are drawn at once: 4 KB, stays in the nearest cache
@@ -34,7 +34,7 @@ class FastRun(NamedTuple):
 
     q: np.ndarray  # (8 S,) values, -inf where there is no action
     target: np.ndarray  # (S,) reward + gamma * largest value: what arriving gives
-    code: np.ndarray  # (2 S,) uint16: of [2s] the best actions, [2s + 1] the allowed
+    sets: np.ndarray  # (2 S,) uint8, a bit an action: [2s] the best, [2s + 1] the allowed
     rng: np.ndarray  # (2, 4) as in loop.Run, and so the next two
     place: np.ndarray  # (2,)
     ended: np.ndarray  # (2,)
@@ -48,7 +48,7 @@ def guided(s, field, guide):
 
 
 @inlined
-def choose(t, s, luck, guide, tau, tables, rule, code):
+def choose(t, s, luck, guide, tau, tables, rule, sets):
     """Return an action; the same choice as loop.choose makes."""
     mode, field = luck >> 16, luck & 0xFFFF
     if guide is not None and tau is None:
@@ -59,8 +59,8 @@ def choose(t, s, luck, guide, tau, tables, rule, code):
         faded = (tau - t) << 16
         explore = faded + t * explore
         mode = mode * tau
-    chosen = int(code[(s << 1) | (mode < explore)])
-    a = int(tables.member[(chosen >> 4) + ((field * (chosen & 15)) >> 16)])
+    chosen = int(sets[(s << 1) | (mode < explore)])
+    a = int(tables.member[(chosen << 3) + ((field * size(chosen)) >> 16)])
     if tau is not None:
         # Not a choice of two but a mask: a branch would often be guessed wrong.
         a ^= (a ^ guided(s, field, guide)) & -np.int64(mode < faded)
@@ -71,7 +71,7 @@ def choose(t, s, luck, guide, tau, tables, rule, code):
 def step(t, s, left, i, guide, tau, tables, rule, run):
     """Take step t from state s with words 2i and 2i+1; return the place after it."""
     s &= WORD  # known not to be negative: saves the checks of negative indices
-    a = choose(t, s, run.words[2 * i], guide, tau, tables, rule, run.code)
+    a = choose(t, s, run.words[2 * i], guide, tau, tables, rule, run.sets)
     fate, outcome = run.words[2 * i + 1], tables.outcome
     r = int(tables.row[(s << 3) | a]) << 4
     k = count_below(outcome, r, fate - MIDDLE)
@@ -79,20 +79,20 @@ def step(t, s, left, i, guide, tau, tables, rule, run):
     x = (1.0 - rule.alpha) * run.q[(s << 3) | a] + rule.alpha * run.target[s_next]
     largest, ties = put(run.q, s << 3, a, x)
     run.target[s] = tables.reward[s] + rule.gamma * largest
-    run.code[s << 1] = tables.tie_code[ties]
+    run.sets[s << 1] = ties
     return s_next, left - 1
 
 
 @inlined
 def over(s, left, run):
     """Say whether the episode ends here: no action is best in a terminal state."""
-    return run.code[s << 1] == 0 or left == 0
+    return run.sets[s << 1] == 0 or left == 0
 
 
 @compiled
 def restart(s, tables, rule, run):
     """Count the episode that ended in s; return the place where the next begins."""
-    run.ended[GOALS if run.code[s << 1] == 0 else CUTS] += 1
+    run.ended[GOALS if run.sets[s << 1] == 0 else CUTS] += 1
     word = next_word(run.rng[STARTS])
     return tables.start[(word * len(tables.start)) >> 32], rule.max_episode
 
@@ -139,8 +139,8 @@ def advance_three(first, last, guide, tau, tables, rule, x, y, z):
 
 @compiled
 def refresh(terminal, tables, rule, run):
-    """Write `target` and `code` of all states anew from the values."""
+    """Write `target` and `sets` of all states anew from the values."""
     for s in range(len(terminal)):
         largest, ties = put(run.q, s << 3, 0, run.q[s << 3])
         run.target[s] = tables.reward[s] + rule.gamma * largest
-        run.code[s << 1] = 0 if terminal[s] else tables.tie_code[ties]
+        run.sets[s << 1] = 0 if terminal[s] else ties

@@ -63,12 +63,11 @@ class RunState:
         self.ended = np.zeros(2, np.int64)
         self.plain = loop.Run(self.q, state, place, self.ended)
         if setup.tables:
-            allowed = mdp.allowed @ (1 << np.arange(mdp.n_actions))
-            code = np.zeros((mdp.n_states, 2), np.uint16)
-            code[:, 1] = setup.tables.tie_code[allowed]
+            sets = np.zeros((mdp.n_states, 2), np.uint8)
+            sets[:, 1] = mdp.allowed @ (1 << np.arange(mdp.n_actions))
             target, words = np.zeros(mdp.n_states), np.zeros(2 * _fast.BLOCK, np.int64)
             self.fast = _fast.FastRun(
-                self.q.ravel(), target, code.ravel(), state, place, self.ended, words
+                self.q.ravel(), target, sets.ravel(), state, place, self.ended, words
             )
             _fast.refresh(mdp.terminal, setup.tables, setup.rule, self.fast)
         self.who = np.zeros((settings.trace, 4), np.int64)

@@ -48,20 +48,22 @@ def _put_at_once(typing_context, q, start, a, x):
         place = builder.gep(data, [start])
         row = builder.load(builder.bitcast(place, _ROW.as_pointer()))
         row.align = 8
-        row = builder.select(
-            builder.icmp_signed("==", _spread(builder, a), _PLACES),
-            _spread(builder, x),
-            row,
-        )
+        here = builder.icmp_signed("==", _spread(builder, a), _PLACES)
+        others = builder.select(here, _NOTHING, row)
         builder.store(x, builder.gep(place, [a]))
-        top = row
-        for swap in ((4, 5, 6, 7, 0, 1, 2, 3), (2, 3, 0, 1, 6, 7, 4, 5), _NEIGHBOURS):
-            other = _shuffle(builder, top, swap)
-            above = builder.fcmp_ordered(">", top, other)
-            top = builder.select(above, top, other)
-        ties = builder.bitcast(builder.fcmp_ordered("==", row, top), ir.IntType(8))
+        top = others
+        for half in (4, 2, 1):
+            low = _shuffle(builder, top, range(half))
+            high = _shuffle(builder, top, range(half, 2 * half))
+            top = _larger(builder, low, high)
         top = builder.extract_element(top, ir.IntType(32)(0))
-        ties = builder.zext(ties, ir.IntType(64))
+        ties = builder.fcmp_ordered("==", others, _spread(builder, top))
+        # Up to here x is not asked for: it often comes later than the row.
+        ties = builder.zext(builder.bitcast(ties, ir.IntType(8)), a.type)
+        stay = builder.sext(builder.fcmp_ordered(">=", top, x), a.type)
+        join = builder.zext(builder.fcmp_ordered(">=", x, top), a.type)
+        ties = builder.or_(builder.and_(ties, stay), builder.shl(join, a))
+        top = _larger(builder, x, top)
         return context.make_tuple(builder, signature.return_type, [top, ties])
 
     return signature, generate
@@ -69,12 +71,17 @@ def _put_at_once(typing_context, q, start, a, x):
 
 _ROW = ir.VectorType(ir.DoubleType(), WIDTH)
 _PLACES = ir.Constant(ir.VectorType(ir.IntType(64), WIDTH), list(range(WIDTH)))
-_NEIGHBOURS = (1, 0, 3, 2, 5, 4, 7, 6)
+_NOTHING = ir.Constant(_ROW, [float("-inf")] * WIDTH)
+
+
+def _larger(builder, x, y):
+    """Return the larger of two numbers, or of each two of two vectors."""
+    return builder.select(builder.fcmp_ordered(">", x, y), x, y)
 
 
 def _shuffle(builder, vector, order):
-    """Return the entries of a vector in this order."""
-    order = ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), list(order))
+    """Return these entries of a vector, in this order."""
+    order = ir.Constant(ir.VectorType(ir.IntType(32), len(order)), list(order))
     return builder.shuffle_vector(vector, ir.Constant(vector.type, ir.Undefined), order)
 
 
@@ -83,6 +90,29 @@ def _spread(builder, number):
     vector = ir.Constant(ir.VectorType(number.type, WIDTH), ir.Undefined)
     vector = builder.insert_element(vector, number, ir.IntType(32)(0))
     return _shuffle(builder, vector, [0] * WIDTH)
+
+
+def size(mask):
+    """
+    Return how many of the bits of a mask are set.
+
+    >>> size(0b10110)
+    3
+    """
+    return mask.bit_count()
+
+
+@overload(size)
+def _size(mask):
+    return lambda mask: _count_bits(mask)
+
+
+@intrinsic
+def _count_bits(typing_context, mask):
+    def generate(context, builder, signature, arguments):
+        return builder.ctpop(arguments[0])
+
+    return types.int64(types.int64), generate
 
 
 def count_below(last, start, number):

@@ -27,8 +27,7 @@ class Tables(NamedTuple):
     outcome: np.ndarray  # (16 rows,) int32: last word - 2^31 of 8 outcomes; s_next - s
     reward: np.ndarray  # (S,)
     start: np.ndarray  # (N,) int64
-    tie_code: np.ndarray  # (256,) uint16: 128 * (set of actions) + its size
-    member: np.ndarray  # (2048,) uint8: [8 * set + i] is its i-th action
+    member: np.ndarray  # (2048,) uint8: [8 * set + i] is the i-th action of the set
 
 
 class FastGuide(NamedTuple):
@@ -99,7 +98,7 @@ def pack_world(world: World) -> Tables | None:
     row = np.zeros((n_states, WIDTH), small_type(len(outcome)))
     row[:, :n_actions] = number.reshape(n_states, n_actions)
     flat = row.ravel(), outcome.ravel()
-    return Tables(*flat, world.reward, world.start, *_set_tables())
+    return Tables(*flat, world.reward, world.start, _members())
 
 
 def pack_guide(guide: Guide) -> FastGuide:
@@ -129,10 +128,7 @@ def small_type(count: int) -> type:
     return np.uint8 if count <= 256 else np.int32
 
 
-def _set_tables() -> tuple[np.ndarray, np.ndarray]:
-    """Return for each set of actions (a mask of 8 bits) its code and its members."""
-    mask = np.arange(256)
-    inside = (mask[:, None] >> np.arange(WIDTH)) & 1
-    code = (mask << 7 | inside.sum(axis=1)).astype(np.uint16)
-    member = np.argsort(1 - inside, axis=1, kind="stable").astype(np.uint8)
-    return code, member.ravel()
+def _members() -> np.ndarray:
+    """Return the actions of each set (a mask of 8 bits), those outside it last."""
+    outside = (~np.arange(256)[:, None] >> np.arange(WIDTH)) & 1
+    return np.argsort(outside, axis=1, kind="stable").astype(np.uint8).ravel()
