@@ -34,7 +34,7 @@ class FastRun(NamedTuple):
 
     q: np.ndarray  # (8 S,) values, -inf where there is no action
     target: np.ndarray  # (S,) reward + gamma * largest value: what arriving gives
-    sets: np.ndarray  # (2 S,) uint8, a bit an action: [2s] the best, [2s + 1] the allowed
+    sets: np.ndarray  # (2 S,) uint8, a bit an action: [2s] best, [2s + 1] allowed
     rng: np.ndarray  # (2, 4) as in loop.Run, and so the next two
     place: np.ndarray  # (2,)
     ended: np.ndarray  # (2,)
@@ -68,25 +68,28 @@ def choose(t, s, luck, guide, tau, tables, rule, sets):
 
 
 @inlined
-def step(t, s, left, i, guide, tau, tables, rule, run):
-    """Take step t from state s with words 2i and 2i+1; return the place after it."""
+def move(t, s, i, guide, tau, tables, rule, run):
+    """Take step t from s with words 2i and 2i+1; return the entry of q, and s_next."""
     s &= WORD  # known not to be negative: saves the checks of negative indices
     a = choose(t, s, run.words[2 * i], guide, tau, tables, rule, run.sets)
-    fate, outcome = run.words[2 * i + 1], tables.outcome
-    r = int(tables.row[(s << 3) | a]) << 4
+    entry, fate, outcome = (s << 3) | a, run.words[2 * i + 1], tables.outcome
+    r = int(tables.row[entry]) << 4
     k = count_below(outcome, r, fate - MIDDLE)
-    s_next = (s + int(outcome[r + 8 + k])) & WORD
-    x = (1.0 - rule.alpha) * run.q[(s << 3) | a] + rule.alpha * run.target[s_next]
-    largest, ties = put(run.q, s << 3, a, x)
-    run.target[s] = tables.reward[s] + rule.gamma * largest
-    run.sets[s << 1] = ties
-    return s_next, left - 1
+    return entry, (s + int(outcome[r + 8 + k])) & WORD
 
 
 @inlined
-def over(s, left, run):
-    """Say whether the episode ends here: no action is best in a terminal state."""
-    return run.sets[s << 1] == 0 or left == 0
+def learn(entry, s_next, left, tables, rule, run):
+    """Change the entry of q that led to s_next; return the place to go on from."""
+    s, a = entry >> 3, entry & 7
+    x = (1.0 - rule.alpha) * run.q[entry] + rule.alpha * run.target[s_next]
+    largest, ties = put(run.q, s << 3, a, x)
+    run.target[s] = tables.reward[s] + rule.gamma * largest
+    run.sets[s << 1] = ties
+    # No action is best in a terminal state.
+    if run.sets[s_next << 1] == 0 or left == 1:
+        return restart(s_next, tables, rule, run)
+    return s_next, left - 1
 
 
 @compiled
@@ -105,9 +108,8 @@ def advance_one(first, last, guide, tau, tables, rule, x):
         n = min(BLOCK, last + 1 - t)
         fill(x.rng[STEPS], x.words[: 2 * n])
         for i in range(n):
-            s, left = step(t + i, s, left, i, guide, tau, tables, rule, x)
-            if over(s, left, x):
-                s, left = restart(s, tables, rule, x)
+            entry, s = move(t + i, s, i, guide, tau, tables, rule, x)
+            s, left = learn(entry, s, left, tables, rule, x)
     x.place[0], x.place[1] = s, left
 
 
@@ -123,15 +125,12 @@ def advance_three(first, last, guide, tau, tables, rule, x, y, z):
         fill(y.rng[STEPS], y.words[: 2 * n])
         fill(z.rng[STEPS], z.words[: 2 * n])
         for i in range(n):
-            s_x, left_x = step(t + i, s_x, left_x, i, guide, tau, tables, rule, x)
-            if over(s_x, left_x, x):
-                s_x, left_x = restart(s_x, tables, rule, x)
-            s_y, left_y = step(t + i, s_y, left_y, i, guide, tau, tables, rule, y)
-            if over(s_y, left_y, y):
-                s_y, left_y = restart(s_y, tables, rule, y)
-            s_z, left_z = step(t + i, s_z, left_z, i, guide, tau, tables, rule, z)
-            if over(s_z, left_z, z):
-                s_z, left_z = restart(s_z, tables, rule, z)
+            entry_x, s_x = move(t + i, s_x, i, guide, tau, tables, rule, x)
+            entry_y, s_y = move(t + i, s_y, i, guide, tau, tables, rule, y)
+            entry_z, s_z = move(t + i, s_z, i, guide, tau, tables, rule, z)
+            s_x, left_x = learn(entry_x, s_x, left_x, tables, rule, x)
+            s_y, left_y = learn(entry_y, s_y, left_y, tables, rule, y)
+            s_z, left_z = learn(entry_z, s_z, left_z, tables, rule, z)
     x.place[0], x.place[1] = s_x, left_x
     y.place[0], y.place[1] = s_y, left_y
     z.place[0], z.place[1] = s_z, left_z
