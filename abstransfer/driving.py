@@ -181,7 +181,7 @@ def format_table1(result: dict) -> str:
             )
         lines.append(line)
     extra = {
-        "uniform_available": ("uniform, available", ".2f"),
+        "uniform_available": ("eager", ".2f"),
         "cells": ("cells", "d"),
         "rooms": ("rooms", "d"),
         "goals": ("goals", "d"),

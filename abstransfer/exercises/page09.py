@@ -6,33 +6,32 @@ EXERCISES = [
     value(
         "ex-9-1",
         "The interval of a mean is to become a tenth as wide. How many times as many "
-        "lives "
-        "does that take?",
+        "runs does that take?",
         100,
         hints=(
-            "The width falls as the number of lives grows, but not as fast.",
-            "The mean of n lives varies by the spread of one, over the root of n.",
+            "The width falls as the number of runs grows, but not as fast.",
+            "The mean of n runs varies by the spread of one, over the root of n.",
             "The root must grow tenfold.",
         ),
         wrong=[
             Wrong(
-                "no root", 10, "Ten times the lives narrow it by the root of 10 only."
+                "no root", 10, "Ten times the runs narrow it by the root of 10 only."
             ),
             Wrong("the root of ten", 10**0.5, "The root must be 10, not the number."),
             Wrong("the third power", 1000, "The root of 1,000 is about 32: too much."),
-            Wrong("lives, not times", 5000, "So many lives in all; how many times 50?"),
+            Wrong("runs, not times", 5000, "So many runs in all; how many times 50?"),
         ],
     ),
     value(
         "ex-9-2",
-        "The lives of two arms are spread alike, and the correlation of partners is "
+        "The runs of two arms are spread alike, and the correlation of partners is "
         "0.75. "
         "How wide is the interval in pairs, as a share of that with wrong partners?",
         0.5,
         share=True,
         hints=(
             "What partners share drops out of their difference.",
-            "The variance of a difference is 2 (1 - r) times that of one life.",
+            "The variance of a difference is 2 (1 - r) times that of one run.",
             "Without pairs r is 0. Take the root of 1 - r.",
         ),
         wrong=[
@@ -47,7 +46,7 @@ EXERCISES = [
     ),
     value(
         "ex-9-3",
-        "Somebody looks after every life from the fifth to the fiftieth. How many "
+        "Somebody looks after every run from the fifth to the fiftieth. How many "
         "looks "
         "are that?",
         46,
@@ -60,7 +59,7 @@ EXERCISES = [
             Wrong(
                 "off by one", 45, "Both ends count: from 5 to 6 there are two looks."
             ),
-            Wrong("all lives", 50, "There is no look after the first four."),
+            Wrong("all runs", 50, "There is no look after the first four."),
             Wrong(
                 "one look", 1, "That would be fair, and wrong in 5 percent of cases."
             ),

@@ -5,51 +5,51 @@ import numpy as np
 from ._model import Wrong, function
 
 
-def diluted(page, possible, share):
-    """Return a page of advice mixed with a robot that does anything possible."""
+def diluted(advice, possible, share):
+    """Return advice (Z, A) mixed with that of the eager robot."""
     eager = possible / possible.sum(axis=1, keepdims=True)
-    return (1 - share) * page + share * eager
+    return (1 - share) * advice + share * eager
 
 
-def diluted_row_by_row(page, possible, share):
+def diluted_row_by_row(advice, possible, share):
     rows = []
-    for p, mask in zip(page, possible, strict=True):
+    for p, mask in zip(advice, possible, strict=True):
         noise = share / sum(bool(m) for m in mask)
         pairs = zip(p, mask, strict=True)
         rows.append([x * (1 - share) + noise * bool(m) for x, m in pairs])
     return rows
 
 
-def _over_all(page, possible, share):
-    return (1 - share) * page + share / page.shape[1]
+def _over_all(advice, possible, share):
+    return (1 - share) * advice + share / advice.shape[1]
 
 
-def _other_share(page, possible, share):
-    return diluted(page, possible, 1 - share)
+def _other_share(advice, possible, share):
+    return diluted(advice, possible, 1 - share)
 
 
-def _adds(page, possible, share):
-    return page + share * possible / possible.sum(axis=1, keepdims=True)
+def _adds(advice, possible, share):
+    return advice + share * possible / possible.sum(axis=1, keepdims=True)
 
 
-def _counts_the_page(page, possible, share):
-    mixed = (1 - share) * page + share * possible
+def _counts_the_actions(advice, possible, share):
+    mixed = (1 - share) * advice + share * possible
     return mixed / mixed.sum(axis=1, keepdims=True)
 
 
-def _within_the_list(page, possible, share):
-    support = page > 0
-    return (1 - share) * page + share * support / support.sum(axis=1, keepdims=True)
+def _within_the_list(advice, possible, share):
+    support = advice > 0
+    return (1 - share) * advice + share * support / support.sum(axis=1, keepdims=True)
 
 
-def _pages(rng):
+def _advice(rng):
     for share in (0, 0.1, 0.25, 0.5, 0.75, 1):
         for shape in ((2, 3), (5, 8)):
             possible = rng.random(shape) < 0.5
             possible[:, 0] = True
-            page = rng.random(shape) * possible * (rng.random(shape) < 0.6)
-            page[:, 0] += 0.1
-            yield page / page.sum(axis=1, keepdims=True), possible, share
+            advice = rng.random(shape) * possible * (rng.random(shape) < 0.6)
+            advice[:, 0] += 0.1
+            yield advice / advice.sum(axis=1, keepdims=True), possible, share
 
 
 def share_closed(low, middle, high):
@@ -69,17 +69,17 @@ def _runs(rng):
 EXERCISES = [
     function(
         "ex-10-2",
-        "Write `diluted`, which mixes a page of advice (Z, A) with the eager robot's, "
-        "who draws uniformly among the possible actions. `possible` (Z, A) is True or "
+        "Write `diluted`, which mixes advice (Z, A) with that of the eager robot. "
+        "It draws uniformly among the possible actions. `possible` (Z, A) is True or "
         "False; `share` is the eager robot's part, 0 to 1.",
         diluted,
-        cases=_pages,
+        cases=_advice,
         same=(diluted_row_by_row,),
         hints=(
-            "Two pages of advice, each with rows that sum to 1, are mixed.",
-            "The eager robot's page is `possible`, each row divided by its sum: "
+            "Two arrays of advice, each with rows that sum to 1, are mixed.",
+            "The eager robot's advice is `possible`, each row divided by its sum: "
             "`eager = possible / possible.sum(axis=1, keepdims=True)`.",
-            "`(1 - share) * page + share * eager`.",
+            "`(1 - share) * advice + share * eager`.",
         ),
         wrong=[
             Wrong(
@@ -91,30 +91,30 @@ EXERCISES = [
             Wrong(
                 "the shares the other way round",
                 _other_share,
-                "With `share` = 0 the page should stay as it is.",
+                "With `share` = 0 the advice should stay as it is.",
             ),
             Wrong(
                 "added on top",
                 _adds,
-                "The rows now sum to more than 1. What the eager robot gets, the page "
-                "must give.",
+                "The rows now sum to more than 1. What the eager robot gets, the "
+                "advice must give.",
             ),
             Wrong(
                 "actions counted, not shared out",
-                _counts_the_page,
+                _counts_the_actions,
                 "Mixing before dividing gives views with many actions more noise. Make "
-                "the eager page first.",
+                "the eager advice first.",
             ),
             Wrong(
-                "uniform over the page's own list",
+                "uniform over its own list",
                 _within_the_list,
-                "That moves toward ND: no action is added that the page does not list.",
+                "That moves toward ND: no action is added that was not listed.",
             ),
         ],
     ),
     function(
         "ex-10-3",
-        "Write `share_closed`: goals of the lives of Prob (`low`), of a changed Prob "
+        "Write `share_closed`: goals of the runs of Prob (`low`), of a changed Prob "
         "(`middle`), and of ND (`high`). Return which part of the gap between the "
         "means of Prob and ND the change closes: 0 none, 1 all of it.",
         share_closed,
@@ -150,7 +150,7 @@ EXERCISES = [
                 "A change can make it worse, or better than ND: do not hide that.",
             ),
             Wrong(
-                "life by life",
+                "run by run",
                 lambda low, middle, high: np.mean(
                     (np.array(middle) - low) / (np.array(high) - low)
                 ),

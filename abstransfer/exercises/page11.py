@@ -6,7 +6,7 @@ from ._model import Wrong, function
 
 
 def toward_goal(possible, heads):
-    """Return the page of advice that goes toward the goal wherever it sees a way."""
+    """Return advice (Z, A) that goes toward the goal wherever it sees a way."""
     wanted = possible & heads
     wanted = np.where(wanted.any(axis=1, keepdims=True), wanted, possible)
     return wanted / wanted.sum(axis=1, keepdims=True)
@@ -62,7 +62,7 @@ def _cases(rng):
 EXERCISES = [
     function(
         "ex-11-3",
-        "Write `toward_goal`, which makes a page of advice. `possible` (Z, A) says "
+        "Write `toward_goal`, which makes advice. `possible` (Z, A) says "
         "which actions an abstract state allows, `heads` (A,) which of them lead "
         "toward the goal. Every row draws uniformly among the possible actions toward "
         "the goal; where there is none, among all possible ones.",
@@ -70,7 +70,7 @@ EXERCISES = [
         cases=_cases,
         same=(toward_goal_row_by_row,),
         hints=(
-            "A page of advice is an array of probabilities, with a row for each view.",
+            "Advice is an array of probabilities, with a row for each view.",
             "`wanted = possible & heads` is what you want, in rows that are not empty.",
             "`wanted = np.where(wanted.any(axis=1, keepdims=True), wanted, possible)`; "
             "then divide each row by its sum.",

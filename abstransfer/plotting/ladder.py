@@ -74,7 +74,7 @@ def describe_ladder(
 
     >>> describe_ladder({"source": {"rand": -88.7, "nd": -44.1, "optimal": -14.0}},
     ...                 rows=("rand", "nd", "optimal"))
-    "Mean value by policy, best first. Source: optimal −14.0, ND −44.1, random −88.7.
+    "Mean value by policy, best first. Source: optimal −14.0, ND −44.1, wanderer −88.7.
     The order is the paper's."
     """
     columns = ladder_columns(result, rows)

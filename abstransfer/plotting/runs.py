@@ -167,7 +167,7 @@ def describe_boxes(totals: Mapping[str, np.ndarray]) -> str:
 
     >>> describe_boxes({"none": np.array([250_000, 270_000]), "rand-hard":
     ...                 np.array([430_000, 440_000])})
-    'Goals of a run, mean of 2 runs, best first: random hard 435k, Q-learning 260k.
+    'Goals of a run, mean of 2 runs, best first: wanderer hard 435k, Q-learning 260k.
     The best reaches 1.67 times the last.'
     """
     totals = arm_arrays(totals, 1)
@@ -225,7 +225,7 @@ def fit(items: Sequence[str], room: int) -> str:
     """
     Return the items as a list; where room is short, the middle is left out.
 
-    >>> fit(["ND 5", "Prob 4", "Grad 3", "random 2", "Q-learning 1"], 38)
+    >>> fit(["ND 5", "Prob 4", "Grad 3", "wanderer 2", "Q-learning 1"], 38)
     'ND 5, Prob 4, 2 more, Q-learning 1'
     """
     text = ", ".join(items)

@@ -72,7 +72,7 @@ def arm_style(arm: str) -> ArmStyle:
     >>> arm_style("nd-soft").name
     'ND soft'
     >>> arm_style("uniform_available").name
-    'uniform'
+    'eager'
     """
     builder, strategy = str(arm), None
     for name in PALETTE["strategies"]:

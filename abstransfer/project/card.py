@@ -1,6 +1,7 @@
 """
-The card that a project hands in: what was raced, and the goals of each life.
+The card that a project hands in: what was raced, and the goals of each run.
 
+On the card a run is a life: cards that were handed in keep their words.
 The scene of page 11 writes the same text.  A person can read it, and :func:`verify`
 runs the race again, and says which line is not so.
 """
@@ -37,7 +38,7 @@ def card_text(
     own: Mapping[str, np.ndarray] | None = None,
 ) -> str:
     """
-    Return the text to hand in; `goals` are those of each life, by robot.
+    Return the text to hand in; `goals` are those of each run, by robot.
 
     `own` holds abstract policies (Z, A) of one's own, of names in ``setup.guides``.
     """
@@ -50,17 +51,17 @@ def card_text(
         "Strategy": setup.strategy,
         "Steps": steps,
         "Tau": tau,
-        "Lives": setup.lives,
+        "Lives": setup.runs,
         "Seed": SEED,
     }
-    head = (*HEAD, *(f"life {i + 1}" for i in range(setup.lives)))
+    head = (*HEAD, *(f"life {i + 1}" for i in range(setup.runs)))
     rows = [head, ["---"] * len(head)]
     for name in ("none", *setup.robots, "optimal"):
         mine = [int(n) for n in goals.get(name, ())]
         value = f"{found[name]:.2f}" if name != "none" else ""
         mean = f"{_half_up(sum(mine) / len(mine))}" if mine else ""
         gain = _gain(mine, goals["none"]) if mine and name != "none" else ""
-        rows.append([name, value, mean, gain, *(mine or [""] * setup.lives)])
+        rows.append([name, value, mean, gain, *(mine or [""] * setup.runs)])
     lines = [TITLE, "", *(f"- {name}: {value}" for name, value in settings.items())]
     lines += ["", *(f"| {' | '.join(map(str, row))} |" for row in rows), ""]
     return "\n".join([*lines, "```text", str(setup.map), "```", ""])
@@ -89,7 +90,7 @@ def verify(text: str, own: Mapping[str, np.ndarray] | None = None) -> list[Verif
     Examples
     --------
     >>> from abstransfer.project.setup import Setup, run
-    >>> setup = Setup(parse_map("+---+\\n|.d*|\\n+---+"), guides=("eager",), lives=1)
+    >>> setup = Setup(parse_map("+---+\\n|.d*|\\n+---+"), guides=("eager",), runs=1)
     >>> card = card_text(setup, run(setup).goals)
     >>> [found.setup == setup for found in verify("By me.\\n" + card)]
     [True]

@@ -25,7 +25,7 @@ from .racing import Race, race
 GUIDES = (*BUILDERS, "eager", "rand")
 ADVICE = ("source", "target", "own")
 PAPER_ENTRIES = 151_200  # of the table Q in the paper's target
-PAPER_TAU = 3.5 / 30  # share of a life in which the paper's guide advises
+PAPER_TAU = 3.5 / 30  # share of a run in which the paper's guide advises
 
 
 class Setup(NamedTuple):
@@ -36,7 +36,7 @@ class Setup(NamedTuple):
     guides: tuple[str, ...] = (*BUILDERS, "eager")
     advice: str = "source"  # building the advice comes from; "own" is the map itself
     strategy: str = "hard"
-    lives: int = 5
+    runs: int = 5
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -47,7 +47,7 @@ class Setup(NamedTuple):
 
 def scale(map_: Map) -> tuple[int, int]:
     """
-    Return steps of a life and of advice, in the paper's proportions, rounded.
+    Return steps of a run and of advice, in the paper's proportions, rounded.
 
     >>> scale(read_map("source"))
     (2360000, 280000)
@@ -75,12 +75,12 @@ def policies(
 
 
 def run(setup: Setup, own: Mapping[str, np.ndarray] | None = None) -> Race:
-    """Let the robots of a project live; the browser finds the same goals."""
+    """Let the robots of a project learn; the browser finds the same goals."""
     choice("advice", setup.advice, ADVICE)
     choice("strategy", setup.strategy, STRATEGIES)
     tasks = navigation_tasks(setup.map, reward="goal", features=setup.features)
     steps, tau = scale(setup.map)
-    options = {"strategy": setup.strategy, "n_runs": setup.lives}
+    options = {"strategy": setup.strategy, "n_runs": setup.runs}
     return race(tasks, policies(setup, tasks, own), steps=steps, tau=tau, **options)
 
 

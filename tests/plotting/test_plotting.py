@@ -456,7 +456,7 @@ def test_a_row_that_the_paper_has_not_is_left_out_of_the_comparison():
     }
     alt = plotting.describe_ladder(columns, rows=(*ROWS, "uniform_available"))
 
-    assert "uniform −50.0" in alt
+    assert "eager −50.0" in alt
     assert alt.endswith("The order is the paper's.")
 
 
@@ -546,7 +546,7 @@ def test_the_alt_text_of_tau_names_the_best_of_each_arm():
     data = {"rand-hard": (TAUS, goals), "nd-soft": (TAUS[::-1], goals)}
     alt = plotting.describe_tau(data, paper={"rand-hard": 3.5e6, "nd-soft": 11e6})
 
-    assert "random hard 3.5 (9), ND soft 3.5 (9)" in alt
+    assert "wanderer hard 3.5 (9), ND soft 3.5 (9)" in alt
     assert alt.endswith("The paper's tau is the best for 1 of 2.")
 
 

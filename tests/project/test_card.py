@@ -111,7 +111,7 @@ def test_gains_compare_each_robot_with_the_one_without_advice(ran):
 
 
 SMALL = parse_map("+---+---+\n|. .d*  |\n+---+---+")
-SETUP = Setup(SMALL, FEATURES[8:], ("eager", "rand"), "own", "soft", lives=2)
+SETUP = Setup(SMALL, FEATURES[8:], ("eager", "rand"), "own", "soft", runs=2)
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +120,7 @@ def card():
 
 
 def test_a_card_says_how_advice_drives_as_table_1_does():
-    setup = Setup(ROOMS, guides=("nd", "rand"), lives=1)
+    setup = Setup(ROOMS, guides=("nd", "rand"), runs=1)
     tasks = navigation_tasks(ROOMS)  # at a cost of 1 a step
     nd = abstract_policies(navigation_tasks(read_map("source")), ["nd"])["nd"]
     value = evaluate_policy(tasks.mdp, nd[tasks.rho]).mean()
@@ -167,7 +167,7 @@ def test_a_card_may_come_by_mail(card, sent):
 
 
 def test_all_cards_of_a_text_are_run_again(card):
-    other = SETUP._replace(lives=1, strategy="hard")
+    other = SETUP._replace(runs=1, strategy="hard")
     text = f"Ann:\n{card}\nBen:\n{quoted(card_text(other, run(other).goals))}"
 
     assert [found.setup for found in verify(text)] == [SETUP, other]

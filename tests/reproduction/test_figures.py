@@ -119,7 +119,7 @@ def test_figure_4_as_numbers_has_a_row_per_arm_and_window(made):
 
 
 def test_the_measures_of_transfer_see_the_jump(made):
-    """Q-learning jumps after 5 million steps, random hard after 14."""
+    """Q-learning jumps after 5 million steps, wanderer hard after 14."""
     rows = {row["arm"]: row for row in read(made / "measures-goal.csv")}
 
     assert float(rows["none"]["critical_point"]) == 5_000_000

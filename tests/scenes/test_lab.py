@@ -27,8 +27,8 @@ SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to p
     "Ripple": ("Sweep", "k", 8, 3),
     "Dial": ("Luck: run", "luck", 2, 5),
     "Ladder": ("A move succeeds with probability", "success", 0.8, 0.65),
-    "Project": ("Lives of each", "lives", 3, 7),
-    "Filling": ("Lives", "n", 20, 7),
+    "Project": ("Runs of each", "lives", 3, 7),
+    "Filling": ("Runs", "n", 20, 7),
 }
 SCENES = [*SLIDERS, "Studio"]
 

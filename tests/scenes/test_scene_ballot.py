@@ -1,4 +1,4 @@
-"""The ballot box: votes of one abstract state, and the pages of the dial."""
+"""The ballot box: votes of one abstract state, and the advice of the dial."""
 
 import re
 
@@ -19,7 +19,7 @@ from abstransfer.scenes.parts.betas import BETAS
 
 SMALL = maps.read_map("source")
 THREE = "+-+-+-+\n|. . .|\n+d+d+d+\n|*|*|*|\n+ + + +\n| | | |\n+-+-+-+"
-WHOLE = "the whole page, small building", "the whole page, large building"
+WHOLE = "the whole advice, small building", "the whole advice, large building"
 
 
 def counted(tab):
@@ -48,7 +48,7 @@ def lit(tab):
 
 
 def assert_box(tab, scene):
-    """The table is what Python finds: votes, and probabilities of four pages."""
+    """The table is what Python finds: votes, and probabilities of four places."""
     _, _, lines = tab.table()
     actions = [line for line in lines if line[0] not in WHOLE]
     votes = {line[0]: number(line[1]) for line in actions}
@@ -57,7 +57,7 @@ def assert_box(tab, scene):
     wanted = [scene.votes[a] for a in np.flatnonzero(possible)]
     assert [*votes.values()] == pytest.approx(wanted, abs=1e-4)
     for column, beta in enumerate([scene.beta, *PAGES.values()], 2):
-        page = Ballot(source=scene.source, z=scene.z, beta=beta).page[scene.z]
+        page = Ballot(source=scene.source, z=scene.z, beta=beta).advice[scene.z]
         found = [number(line[column]) for line in actions]
         assert found == pytest.approx(page[possible], abs=1e-6)
 
@@ -70,7 +70,7 @@ def ballot(show):
 # Numbers
 
 
-def test_boxes_and_their_pages_are_those_of_python(ballot):
+def test_boxes_and_their_advice_are_those_of_python(ballot):
     tasks = navigation_tasks(SMALL)
     commonest = np.bincount(tasks.rho[~tasks.mdp.terminal]).argmax()
     for z, beta in zip([19, commonest] * 3, [0, 0.5, 1, 3, 8, np.inf], strict=True):
@@ -81,17 +81,17 @@ def test_boxes_and_their_pages_are_those_of_python(ballot):
     assert ballot.problems == []
 
 
-def test_what_pages_are_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
+def test_what_advice_is_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
     bet(ballot)
     scene = Ballot()
     for beta in (0.25, 0.5, 2.75, 8.0, np.inf):
         dial(ballot, WINNER if beta == np.inf else beta)
         rows = ballot.rows()
         for name, where in zip(WHOLE, ("source", "target"), strict=True):
-            now, *pages = map(number, rows[name][1:])
+            now, *others = map(number, rows[name][1:])
             assert now == pytest.approx(scene.driving(where, beta), abs=1e-7)
             wanted = [scene.driving(where, at) for at in PAGES.values()]
-            assert pages == pytest.approx(wanted, abs=1e-7)
+            assert others == pytest.approx(wanted, abs=1e-7)
         assert f"{scene.driving('source', beta):.2f}".replace("-", "−") in (
             ballot.root.inner_text()
         )
@@ -101,7 +101,7 @@ def test_what_pages_are_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
         " [probe.PAPER[name].nd, probe.PAPER[name].prob][i]))"
     )
     assert marks == [
-        [PAPER[name][page] for name in ("source", "target")] for page in ("nd", "prob")
+        [PAPER[name][of] for name in ("source", "target")] for of in ("nd", "prob")
     ]
     hollow = ballot.root.locator(".ab-chart .ab-marker").evaluate_all(
         "all => all.filter(mark => /arm-(nd|prob)/.test(mark.getAttribute('style'))"
@@ -110,7 +110,7 @@ def test_what_pages_are_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
     assert hollow == 4
 
 
-def test_a_bet_comes_first_and_the_closing_names_the_best_page(ballot):
+def test_a_bet_comes_first_and_the_closing_names_the_best_advice(ballot):
     assert ballot.closing == ""
     assert not ballot.root.locator(".ab-chart").is_visible()
     assert ballot.rows()[WHOLE[0]][1:] == ["–"] * 4
@@ -211,7 +211,7 @@ def test_ends_quick_changes_and_reset(ballot):
     ballot.settle()
     assert_box(ballot, Ballot(beta=0.5))
     wanted = f"{Ballot().driving('source', 0.5):.2f}".replace("-", "−")
-    assert f"At β = 0.50 the whole page is worth {wanted}" in ballot.root.inner_text()
+    assert f"At β = 0.50 the whole advice is worth {wanted}" in ballot.root.inner_text()
     ballot.url_with("ballot.beta=0.5")
 
     assert max(ballot.writes_by_moves('[max="8.25"]', 0.75)) < 50
@@ -256,7 +256,7 @@ def test_a_tiny_and_a_huge_building(show):
     counted(tab).pick(re.compile("^Bet first"), "ND")
     tab.pick(re.compile("^And is there"), "no")
     dial(tab, 2)
-    assert "At β = 2.00 the whole page is worth" in tab.root.inner_text()
+    assert "At β = 2.00 the whole advice is worth" in tab.root.inner_text()
     tab.page.goto("about:blank")
     assert tab.problems == []
 

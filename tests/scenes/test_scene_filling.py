@@ -1,4 +1,4 @@
-"""Box plots that fill: the page's own bootstrap and verdicts, life by life."""
+"""Box plots that fill: the page's own bootstrap and verdicts, run by run."""
 
 import json
 
@@ -121,10 +121,10 @@ def test_it_asks_first_and_ends_in_both_sentences(page):
 
     one, trap = READINGS["1"], READINGS[SAME]
     assert scene.closing.startswith(
-        "You bet on \u201c6 to 15\u201d; it was \u201c2 to 5 lives\u201d."
+        "You bet on \u201c6 to 15\u201d; it was \u201c2 to 5 runs\u201d."
     )
     assert f"all 50 say \u201c{one.verdict}\u201d" in scene.closing
-    assert f"From {one.settled} lives on" in scene.closing
+    assert f"From {one.settled} runs on" in scene.closing
     assert f"wrong in {one.wrong} of 5 orders" in scene.closing
     scene.pick("Claim", "each arm against itself")
     assert scene.closing == ""
@@ -154,8 +154,8 @@ def test_by_keyboard_alone_to_the_end_in_the_dark_on_a_phone(page):
             break
     scene.wait("all 50 say", ".ab-closing")
 
-    assert scene.closing.startswith("You bet on \u201c2 to 5 lives\u201d: right.")
-    assert "after 5 lives" in scene.closing
+    assert scene.closing.startswith("You bet on \u201c2 to 5 runs\u201d: right.")
+    assert "after 5 runs" in scene.closing
     scene.wait("all 50 say", "[aria-live]")
     assert scene.page.evaluate("document.documentElement.scrollWidth") <= 400
     assert scene.small_controls() == []
@@ -164,20 +164,20 @@ def test_by_keyboard_alone_to_the_end_in_the_dark_on_a_phone(page):
 
 
 def test_ends_of_the_slider_quick_changes_and_how_much_they_paint(page):
-    scene = page("#filling.claim=5").bet("2 to 5 lives")
+    scene = page("#filling.claim=5").bet("2 to 5 runs")
     assert max(scene.writes_by_moves(".ab-timeline input", 5)) < 400
-    slider = scene.slider("Lives")
+    slider = scene.slider("Runs")
     for value in ("2", "50", "7", "31", "12"):
         slider.fill(value)
     scene.settle()
 
     assert (
-        "After 12 lives: claim 5 holds (8 of its 8 findings hold)."
+        "After 12 runs: claim 5 holds (8 of its 8 findings hold)."
         in scene.root.inner_text()
     )
     sign(scene)
     scene.url_with("filling.signed=12")
-    scene.pick("Order of the lives", "shuffled 2")
+    scene.pick("Order of the runs", "shuffled 2")
     assert scene.closing == "", "signed in one order, not in the other"
     scene.page.wait_for_function("!location.hash.includes('signed')")
     scene.button("Reset").click()
@@ -186,10 +186,10 @@ def test_ends_of_the_slider_quick_changes_and_how_much_they_paint(page):
     assert scene.problems == []
 
 
-def test_fewer_lives_shorten_the_time_line(show):
+def test_fewer_runs_shorten_the_time_line(show):
     scene = show(Filling(results="goal-target_c"), "#filling.n=50").bet("16 to 30")
 
-    assert scene.slider("Lives").get_attribute("max") == "20"
+    assert scene.slider("Runs").get_attribute("max") == "20"
     sign(scene)
     wanted = read_along(tracks(read_results("goal-target_c"), "1"))
     assert f"all 20 say \u201c{wanted.verdict}\u201d" in scene.closing

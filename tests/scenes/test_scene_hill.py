@@ -9,7 +9,7 @@ from support import ROOT
 from traitlets import TraitError
 
 from abstransfer.builders.deduced import absprob_pi, abstract_gradient
-from abstransfer.scenes.hill.widget import HALL, LAST, RHO, STARTS, Hill, page
+from abstransfer.scenes.hill.widget import HALL, LAST, RHO, STARTS, Hill, advice
 
 LAND = "(probe.land)"
 
@@ -52,14 +52,14 @@ def test_the_problem_is_the_one_that_page_6_defines():
     for name in ("next_state", "prob", "reward", "terminal", "gamma"):
         np.testing.assert_array_equal(getattr(here["hall"], name), getattr(HALL, name))
     assert here["rho"].tolist() == RHO.tolist()
-    np.testing.assert_array_equal(here["page"](0.2, 0.7), page(0.2, 0.7))
+    np.testing.assert_array_equal(here["advice"](0.2, 0.7), advice(0.2, 0.7))
 
 
 @pytest.mark.parametrize("start", STARTS)
 def test_the_still_picture_states_the_finding(start):
     scene = Hill(start=start)
     still = scene.still()
-    options = {"initial": page(0.3, 0.3), "start": np.array(STARTS[start])}
+    options = {"initial": advice(0.3, 0.3), "start": np.array(STARTS[start])}
     climb = absprob_pi(HALL, RHO, np.ones((3, 2), bool), **options)
 
     assert len(set(still.frames)) == 3
@@ -71,7 +71,7 @@ def test_the_still_picture_states_the_finding(start):
     assert f"Of 100 starts, {scene.ends.sum()} end at left and up" in still.caption
     assert still.rows[-1][1:3] == tuple(shown(x, 3) for x in climb.policy[:2, 0])
     best = max(scene.value(p, q) for p in (0, 0.5, 1) for q in (0, 0.5, 1))
-    assert f"best page is worth {shown(best)}" in still.caption
+    assert f"best is worth {shown(best)}" in still.caption
 
 
 # The page's numbers are Python's
@@ -163,7 +163,7 @@ def test_the_table_and_the_words_follow_the_time_line(hill):
         assert len(lines) == t + 1
         found = [number(x) for x in lines[-1]]
         np.testing.assert_allclose(found, [t, *policy[:2, 0], history[t]], atol=1e-6)
-        assert f"This page is worth {shown(history[t])}" in hill.root.inner_text()
+        assert f"This advice is worth {shown(history[t])}" in hill.root.inner_text()
     assert hill.problems == []
 
 
@@ -184,7 +184,7 @@ def test_climbs_from_where_a_click_drops_them(hill):
         "\u201calways on the same\u201d; it was \u201cnot always\u201d" in hill.closing
     )
     assert f"worth {shown(scene.climb().history[-1])} after 300" in hill.closing
-    assert "best page is worth \u22121.99" in hill.closing
+    assert "best advice is worth \u22121.99" in hill.closing
     assert f"{scene.ends.sum()} end at left and up" in hill.closing
     assert "Of your 4 climbs, 3 end at left and up." in hill.closing
     dashes = hill.root.locator(".ab-climb").evaluate_all(
@@ -251,7 +251,7 @@ def test_a_moment_has_an_address_and_a_reset(show):
     query = "#hill.p=0.2&hill.q=0.6&hill.t=300&hill.earlier=[[0.7,0.6]]&hill.start=both"
     scene = show(bare(Hill), query)
     wanted = Hill(p=0.2, q=0.6, start="both").climb().history[-1]
-    assert f"This page is worth {shown(wanted)}" in scene.root.inner_text()
+    assert f"This advice is worth {shown(wanted)}" in scene.root.inner_text()
     assert scene.root.locator(".ab-climb").count() == 2
     drop(scene, 0.5, 0.9)
     scene.url_with("0.2%2C0.6")

@@ -11,7 +11,7 @@ from abstransfer.maps import read_map
 from abstransfer.scenes import Ladder
 
 SOURCE = str(read_map("source"))
-NAMES = dict(zip(ROWS, ("random", "ND", "Prob", "Grad", "optimal"), strict=True))
+NAMES = dict(zip(ROWS, ("wanderer", "ND", "Prob", "Grad", "optimal"), strict=True))
 DONE = "() => /top of its climb/.test(document.querySelector('.ab-body').innerText)"
 
 
@@ -61,7 +61,7 @@ def test_the_bets_are_asked_before_the_target_is_shown(open_scene):
     rows, page = tab.rows(), tab.page
     table = Ladder().table
     assert [rows[NAMES[name]][2] for name in BUILDERS] == ["–"] * 3
-    assert number(rows["random"][2]) == pytest.approx(table["target"]["rand"])
+    assert number(rows["wanderer"][2]) == pytest.approx(table["target"]["rand"])
     assert "In the source" in tab.closing
     bets(tab)
 

@@ -37,7 +37,7 @@ def raced(tab):
 
 def finished(tab):
     tab.page.wait_for_function(
-        "() => /A life without/.test(document.querySelector('.ab-closing').textContent)"
+        "() => /A run without/.test(document.querySelector('.ab-closing').textContent)"
     )
     return tab.settle()
 
@@ -51,7 +51,7 @@ def text_of(tab):
 
 
 def driven(tab):
-    """Wait until all pages were tried as drivers."""
+    """Wait until all advice was tried as drivers."""
     tab.page.wait_for_function(
         "() => /abstract states/.test(document.querySelector('.ab-columns').innerText)"
     )
@@ -97,10 +97,10 @@ def test_a_race_in_the_school_is_pythons_to_the_last_goal(open_scene):
 
 
 SETUPS = [
-    Setup(SCHOOL, guides=("prob", "rand"), strategy="soft", lives=2),
-    Setup(SCHOOL, FEATURES[:4] + FEATURES[9:], ("nd", "grad"), "own", lives=1),
-    Setup(SCHOOL, (), ("nd", "eager"), "source", lives=1),
-    Setup(parse_map("+-+-+-+\n|. .d*|\n+-+-+-+"), guides=("nd", "eager"), lives=3),
+    Setup(SCHOOL, guides=("prob", "rand"), strategy="soft", runs=2),
+    Setup(SCHOOL, FEATURES[:4] + FEATURES[9:], ("nd", "grad"), "own", runs=1),
+    Setup(SCHOOL, (), ("nd", "eager"), "source", runs=1),
+    Setup(parse_map("+-+-+-+\n|. .d*|\n+-+-+-+"), guides=("nd", "eager"), runs=3),
 ]
 
 
@@ -123,14 +123,14 @@ def test_other_races_are_pythons_too(open_scene, setup):
     assert tab.problems == []
 
 
-def test_more_lives_are_added_and_another_building_begins_anew(open_scene):
+def test_more_runs_are_added_and_another_building_begins_anew(open_scene):
     tab = raced(bet(project(open_scene, guides=["nd"], lives=2)))
     first = tab.rows()["nd"][3:]
-    tab.root.get_by_role("slider", name="Lives").fill("3")
+    tab.root.get_by_role("slider", name="Runs").fill("3")
     tab.settle()
     raced(tab)
     assert tab.rows()["nd"][3:5] == first
-    third = run(Setup(SCHOOL, guides=("nd",), lives=3)).goals["nd"][2]
+    third = run(Setup(SCHOOL, guides=("nd",), runs=3)).goals["nd"][2]
     assert tab.rows()["nd"][5] == str(third)
 
     tab.pick("Tool", "Door").click_cell(2 * 9 + 4, y=0.98)
@@ -230,7 +230,7 @@ def test_it_is_accessible_and_fits(open_scene, width, color):
     assert tab.violations() == []
     with tab.page.expect_download() as download:
         tab.root.get_by_role("button", name="Save as a file").last.click()
-    assert verify(download.value.path().read_text())[0].setup == Setup(SCHOOL, lives=1)
+    assert verify(download.value.path().read_text())[0].setup == Setup(SCHOOL, runs=1)
 
 
 def test_an_address_a_reset_and_how_much_a_move_paints(open_scene):
@@ -244,14 +244,14 @@ def test_an_address_a_reset_and_how_much_a_move_paints(open_scene):
 
     assert max(moves) < 40, "the building stays"
     assert tab.root.get_by_label("in a room").is_checked()
-    assert tab.root.get_by_role("slider", name="Lives").input_value() == "5"
+    assert tab.root.get_by_role("slider", name="Runs").input_value() == "5"
     assert tab.problems == []
 
 
 # In Python
 
 
-def test_lives_are_as_long_as_on_the_page():
+def test_runs_are_as_long_as_on_the_page():
     assert scale(SCHOOL) == (600_000, 70_000)
     assert scale(read_map("target")) == (30_000_000, 3_500_000)
     steps, tau = scale(parse_map("+---+\n|.d*|\n+---+"))

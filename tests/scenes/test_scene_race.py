@@ -11,7 +11,7 @@ from abstransfer.experiments.arms import ARMS
 from abstransfer.experiments.problem import build_guides, target_tasks
 from abstransfer.scenes import Race
 
-NAMES = {"none": "no advice", "rand": "random", "prob": "Prob", "nd": "ND"}
+NAMES = {"none": "Q-learning", "rand": "wanderer", "prob": "Prob", "nd": "ND"}
 TAU = {arm.guide: arm.tau for arm in ARMS if arm.strategy == "hard"}
 
 

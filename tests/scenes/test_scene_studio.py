@@ -14,7 +14,7 @@ from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Studio
 
 SOURCE = str(read_map("source"))
-NAMES = dict(zip(ROWS, ("random", "ND", "Prob", "Grad", "optimal"), strict=True))
+NAMES = dict(zip(ROWS, ("wanderer", "ND", "Prob", "Grad", "optimal"), strict=True))
 CORRIDOR = 5 * 15 + 8  # a cell
 
 

@@ -79,7 +79,7 @@ def test_it_says_something_at_once_without_a_worker(show, slider):
     assert scene.problems == []
 
 
-@pytest.mark.parametrize(("guide", "text"), [("nd", "ND"), ("rand", "random")])
+@pytest.mark.parametrize(("guide", "text"), [("nd", "ND"), ("rand", "wanderer")])
 def test_any_tau_has_pythons_numbers(show, slider, guide, text):
     scene = show(slider)
     scene.root.get_by_role("radio", name=text, exact=True).check()
@@ -87,7 +87,7 @@ def test_any_tau_has_pythons_numbers(show, slider, guide, text):
 
     for side in SIDES:
         assert scene.column(side) == curve(slider, side, 6.5e6, guide)
-    assert scene.column("no advice") == python_run(slider, None).goals.tolist()
+    assert scene.column("Q-learning") == python_run(slider, None).goals.tolist()
     assert scene.problems == []
 
 
@@ -96,7 +96,7 @@ def test_thirty_million_steps_are_the_stored_ones(show):
     scene = show(bare(TauSlider, tau=3_500_000)).wait("(hard)", ".ab-body > p")
 
     assert scene.is_idle(20)
-    assert scene.column("no advice") == widget.learn(widget.arm(None)).tolist()
+    assert scene.column("Q-learning") == widget.learn(widget.arm(None)).tolist()
     assert scene.column("hard") == widget.learn(widget.arm("hard")).tolist()
     assert scene.problems == []
 

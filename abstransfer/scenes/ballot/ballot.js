@@ -1,8 +1,8 @@
 // The ballot box, page 5: states that look alike vote for what is best in them; a dial
-// makes a page of advice of the votes, from ND (0) over Prob (1) to the winner.
+// makes advice of the votes, from ND (0) over Prob (1) to the winner.
 
-import { BETAS, betaText, drive, elect, pageOf, STEP, WINNER } from "./votes.js";
-import { wholePage } from "./whole.js";
+import { adviceOf, BETAS, betaText, drive, elect, STEP, WINNER } from "./votes.js";
+import { wholeAdvice } from "./whole.js";
 import { parseMap } from "../engine/maps.js";
 import { A, LABELS, navigationTasks } from "../engine/navigation.js";
 import { barChart } from "../ui/bars.js";
@@ -18,7 +18,7 @@ defineScene("ballot", {
     const { state } = scene;
     let sides; // of both buildings: map, and its tasks as far as they are made
     let election = null; // null until all votes are counted
-    let drives = {}; // by beta: what the page is worth in both buildings
+    let drives = {}; // by beta: what the advice is worth in both buildings
     let shown = null; // the task that is seen
     let timer = null;
 
@@ -34,12 +34,12 @@ defineScene("ballot", {
     });
     const cast = barChart({ label: "Votes in the box", format: (x) => number(x), low: 0 });
     const chances = barChart({
-      label: "Probabilities on the page",
+      label: "Probabilities in the advice",
       format: (x) => number(x, 3),
       low: 0,
       high: 1,
     });
-    const whole = wholePage(scene);
+    const whole = wholeAdvice(scene);
     const column = (...nodes) => make("div", { class: "ab-scene" }, nodes);
     const goals = () => sides?.[0].map.goals ?? [];
     scene.add(
@@ -60,7 +60,7 @@ defineScene("ballot", {
           make("p", {}, "Votes in this box:"),
           cast.node,
           scene.slider("beta", { label: "The dial: β", format: betaText, step: STEP }),
-          make("p", {}, "So the page of advice says, with what probability:"),
+          make("p", {}, "So the advice says, with what probability:"),
           chances.node,
         ),
       ),
@@ -99,15 +99,15 @@ defineScene("ballot", {
       }
       yield* driveAll();
     }
-    // Where the reader stands comes first, then the three pages.
+    // Where the reader stands comes first, then the three kinds of advice.
     const isDone = () => election && next() === undefined;
     const next = () =>
       [state.beta, 0, 1, ...BETAS.slice(-1), ...BETAS].find((beta) => !drives[beta]);
     function* driveAll() {
       for (let beta; (beta = next()) !== undefined;) {
-        const page = pageOf(election.prob, beta);
+        const advice = adviceOf(election.prob, beta);
         const means = [];
-        for (const { each } of sides) means.push(yield* drive(each, page));
+        for (const { each } of sides) means.push(yield* drive(each, advice));
         drives[beta] = means;
       }
     }
@@ -118,7 +118,7 @@ defineScene("ballot", {
     const row = (array, z) => array.subarray(A * z, A * z + A);
     const sight = (a) => sightOf(LABELS[a]);
     const actions = () => [...LABELS.keys()].filter((a) => row(shown.possible, state.z)[a]);
-    const chance = (beta) => pageOf(row(election.prob, state.z), beta);
+    const chance = (beta) => adviceOf(row(election.prob, state.z), beta);
 
     function describe(cell) {
       const where = placeOf(view.plan, cell);
@@ -165,7 +165,7 @@ defineScene("ballot", {
       const places = [state.beta, 0, 1, WINNER];
       const rows = places.map(chance);
       return {
-        caption: `${words.textContent} Probabilities, and mean values of the whole page.`,
+        caption: `${words.textContent} Probabilities, and mean values of the whole advice.`,
         head: ["action", "votes", `β = ${betaText(state.beta)}`, "ND", "Prob", "winner"],
         rows: [
           ...actions().map((

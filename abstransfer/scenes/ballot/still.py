@@ -15,25 +15,25 @@ from ..parts.betas import BETAS, HEIGHT, driving_chart, policy_at
 from ..parts.building import draw_building
 from ..parts.charts import Axis, Row, row_chart
 from ..parts.svg import WIDTH, picture
-from .widget import PAGES, Ballot
+from .widget import ADVICE, Ballot
 
 
 def draw(scene: Ballot) -> Still:
     """Return the cells of the box, the bars, and the curves over the dial."""
-    pages = {name: policy_at(scene.source, beta) for name, beta in PAGES.items()}
+    advice = {name: policy_at(scene.source, beta) for name, beta in ADVICE.items()}
     voted = np.flatnonzero(scene.votes)
     bars = []
     for a in voted:
         bars.append(Row(LABELS[a].replace("_", " ")))
         for name in ("Prob", "ND"):
-            share = pages[name][scene.z, a]
+            share = advice[name][scene.z, a]
             bars.append(Row(name, f"{share:.2f}", name.lower(), bar=share))
     lines = {
         name: [(beta, scene.driving(name, beta)) for beta in BETAS]
         for name in ("source", "target")
     }
     beta, best = max(lines["source"], key=lambda point: point[1])
-    places = {**PAGES, f"\u03b2 = {beta:g}": beta}
+    places = {**ADVICE, f"\u03b2 = {beta:g}": beta}
     worth = {
         name: {where: scene.driving(where, at) for where in lines}
         for name, at in places.items()
@@ -41,8 +41,8 @@ def draw(scene: Ballot) -> Still:
     known = {name: number(of["source"]) for name, of in worth.items()}
     caption = (
         f"A ballot box. {count(round(scene.votes.sum()), 'state')} of the small "
-        f"building vote for {count(len(voted), 'action')}. Of the pages of advice "
-        f"that such boxes make, the one at \u03b2 = {beta:g} drives best in the "
+        f"building vote for {count(len(voted), 'action')}. Of all the advice "
+        f"that such boxes make, that at \u03b2 = {beta:g} drives best in the "
         f"small building: a cell is worth {number(best)}, with Prob {known['Prob']}, "
         f"with ND {known['ND']}, if the winner takes all {known['Winner']}."
     )
@@ -55,7 +55,7 @@ def draw(scene: Ballot) -> Still:
         (name, *(number(of[where], 2) for where in lines), *_paper(name))
         for name, of in worth.items()
     ]
-    head = ("page", "small building", "large", "paper: small", "large")
+    head = ("advice", "small building", "large", "paper: small", "large")
     return Still(frames, caption, head, rows)
 
 
@@ -69,6 +69,6 @@ def _box(scene: Ballot) -> str:
 
 
 def _paper(name: str) -> Sequence[str]:
-    """Return the paper's values of a page, in both buildings, if it has them."""
+    """Return the paper's values of advice, in both buildings, if it has them."""
     values = [PAPER[where].get(name.lower()) for where in ("source", "target")]
     return ["\u2013" if v is None else number(v, 2) for v in values]

@@ -1,4 +1,4 @@
-// The election of page 5, and what its pages of advice are worth: a task between yields,
+// The election of page 5, and what its advice is worth: a task between yields,
 // so that a large building does not stop the hand.
 
 import { A, navigationTasks } from "../engine/navigation.js";
@@ -30,17 +30,17 @@ export function* elect(map, each) {
   return { votes, states, boxes, prob: induceProbabilistic(votes, each[0].possible) };
 }
 
-// The mean value of a cell under a page of advice, exact.
-export function* drive(each, page) {
+// The mean value of a cell under advice, exact.
+export function* drive(each, advice) {
   let sum = 0;
   for (const tasks of each) {
-    sum += evaluatePolicy(tasks, page, tasks.rho).reduce((a, b) => a + b);
+    sum += evaluatePolicy(tasks, advice, tasks.rho).reduce((a, b) => a + b);
     yield;
   }
   return sum / (each.length * each[0].nCells);
 }
 
-export const pageOf = (prob, beta) => betaPolicy(prob, beta > LAST ? Infinity : beta);
+export const adviceOf = (prob, beta) => betaPolicy(prob, beta > LAST ? Infinity : beta);
 export const betaText = (beta) =>
   beta > LAST
     ? "∞ (the winner takes all)"

@@ -1,4 +1,4 @@
-// What the whole page of advice of page 5 is worth: bets, the curve along the dial, and
+// What the whole advice of page 5 is worth: bets, the curve along the dial, and
 // the closing sentence.
 
 import { BETAS, betaText, LAST, WINNER } from "./votes.js";
@@ -6,7 +6,7 @@ import { PAPER } from "../engine/paper.js";
 import { make, number } from "../ui/dom.js";
 import { lineChart } from "../ui/lines.js";
 
-const PAGES = { nd: [0, "ND"], prob: [1, "Prob"], winner: [WINNER, "Winner"] };
+const ADVICE = { nd: [0, "ND"], prob: [1, "Prob"], winner: [WINNER, "Winner"] };
 const MORE = {
   between: "yes, between ND and Prob",
   beyond: "yes, between Prob and the winner",
@@ -15,7 +15,7 @@ const MORE = {
 const SIDES = [["small", "source", "dial-hard"], ["large", "map", "dial-soft"]];
 
 // `drives`: by beta, the mean values of a cell in the small and the large building.
-export function wholePage(scene) {
+export function wholeAdvice(scene) {
   const now = make("p", {});
   const x = {
     label: "β (ND at 0, Prob at 1)",
@@ -24,10 +24,10 @@ export function wholePage(scene) {
     max: LAST + 1,
   };
   const y = {
-    label: "Mean value of a cell if the whole page is obeyed",
+    label: "Mean value of a cell if the whole advice is obeyed",
     format: (v) => number(v, 0),
   };
-  const chart = lineChart({ label: "What the whole page is worth, by beta", height: 260, x, y });
+  const chart = lineChart({ label: "What the whole advice is worth, by beta", height: 260, x, y });
   const note = make(
     "p",
     { class: "ab-note" },
@@ -37,11 +37,11 @@ export function wholePage(scene) {
   const bets = [
     scene.bet("bet", {
       question:
-        "Bet first: which page drives best in the small building, where the votes were cast?",
-      options: Object.fromEntries(Object.entries(PAGES).map(([key, [, name]]) => [key, name])),
+        "Bet first: whose advice drives best in the small building, where the votes were cast?",
+      options: Object.fromEntries(Object.entries(ADVICE).map(([key, [, name]]) => [key, name])),
     }),
     scene.bet("bet_more", {
-      question: "And is there a page that beats all three and needs nothing but the same votes?",
+      question: "And is there advice that beats all three and needs nothing but the same votes?",
       options: MORE,
     }),
   ];
@@ -62,7 +62,7 @@ export function wholePage(scene) {
     node.hidden = !hasBet();
     if (node.hidden) return "";
     now.textContent =
-      `At β = ${betaText(state.beta)} the whole page is worth ${
+      `At β = ${betaText(state.beta)} the whole advice is worth ${
         value(drives, state.beta, 0, 2)
       } a cell in the small building, ` +
       `${value(drives, state.beta, 1, 2)} in the large one.`;
@@ -75,7 +75,7 @@ export function wholePage(scene) {
     if (!note.hidden) {
       for (const paper of [PAPER.source, PAPER.target]) {
         for (const key of ["nd", "prob"]) {
-          curves.push({ arm: `${key}-soft`, points: [[PAGES[key][0], paper[key]]] });
+          curves.push({ arm: `${key}-soft`, points: [[ADVICE[key][0], paper[key]]] });
         }
       }
     }
@@ -91,16 +91,16 @@ export function wholePage(scene) {
   function closing(drives) {
     if (!hasBet()) return "";
     const worth = (beta) => drives[beta][0];
-    const top = Object.keys(PAGES).reduce((
+    const top = Object.keys(ADVICE).reduce((
       a,
       b,
-    ) => (worth(PAGES[b][0]) > worth(PAGES[a][0]) ? b : a));
+    ) => (worth(ADVICE[b][0]) > worth(ADVICE[a][0]) ? b : a));
     const [beta, other] = [0, 1].map((side) => best(drives, side));
-    const isMore = worth(beta) > worth(PAGES[top][0]) + 1e-9;
+    const isMore = worth(beta) > worth(ADVICE[top][0]) + 1e-9;
     const told = (of, side) =>
       `β = ${betaText(of)} with ${value(drives, of, side)} a cell ` +
       `(${
-        Object.values(PAGES).map(([at_, name]) => `${name} ${value(drives, at_, side)}`).join(", ")
+        Object.values(ADVICE).map(([at_, name]) => `${name} ${value(drives, at_, side)}`).join(", ")
       })`;
     return (
       `${scene.betResult("bet", top)} ${
@@ -113,7 +113,7 @@ export function wholePage(scene) {
   }
   const rows = (betas, drives) =>
     SIDES.map(([name], side) => [
-      `the whole page, ${name} building`,
+      `the whole advice, ${name} building`,
       "",
       ...betas.map((beta) => (hasBet() ? value(drives, beta, side, 8) : "–")),
     ]);

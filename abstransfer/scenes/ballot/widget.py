@@ -16,7 +16,7 @@ from ..base import MapTrait, Scene
 from ..parts.betas import LAST, STEP, driving_at, policy_at
 
 WINNER = LAST + STEP  # how the browser writes an infinite beta
-PAGES = {"ND": 0.0, "Prob": 1.0, "Winner": np.inf}
+ADVICE = {"ND": 0.0, "Prob": 1.0, "Winner": np.inf}
 
 
 class BetaTrait(traitlets.Float):
@@ -43,12 +43,12 @@ class BetaTrait(traitlets.Float):
 
 class Ballot(Scene):
     """
-    The ballot box: what states that look alike vote for, and the pages of advice.
+    The ballot box: what states that look alike vote for, and the advice.
 
     Parameters
     ----------
     source, map : Map, text or name
-        Where the votes are cast, and where the page of advice is tried, too.
+        Where the votes are cast, and where the advice is tried, too.
     z : int
         The abstract state whose box is open.
     task : int
@@ -59,9 +59,9 @@ class Ballot(Scene):
     Examples
     --------
     >>> scene = Ballot(beta=0.5)
-    >>> scene.votes[:5]  # of the abstract state on page 5
+    >>> scene.votes[:5]  # in the box of page 5
     array([3.5, 2.5, 0. , 0. , 1. ])
-    >>> scene.page[scene.z, :5].round(2)  # what the page says of it
+    >>> scene.advice[scene.z, :5].round(2)  # what they make
     array([0.42, 0.36, 0.  , 0.  , 0.22])
     >>> round(scene.driving(), 1), round(scene.driving("target"), 1)
     (-34.8, -68.4)
@@ -83,12 +83,12 @@ class Ballot(Scene):
         return _votes(self.source)[self.z]
 
     @property
-    def page(self) -> np.ndarray:
-        """The page of advice (Z, A) at `beta`."""
+    def advice(self) -> np.ndarray:
+        """The advice (Z, A) at `beta`."""
         return policy_at(self.source, self.beta)
 
     def driving(self, where: str = "source", beta: float | None = None) -> float:
-        """Return the mean value of a cell under the page at `beta`: exact."""
+        """Return the mean value of a cell under the advice at `beta`: exact."""
         map_ = {"source": self.source, "target": self.map}[where]
         return driving_at(self.source, map_, self.beta if beta is None else beta)
 

@@ -1,8 +1,8 @@
-// Box plots fill life by life, page 9: sign a claim when you would; then see what all
-// lives say, and how a reader fares who stops as soon as an interval leaves 0.
+// Box plots fill run by run, page 9: sign a claim when you would; then see what all
+// runs say, and how a reader fares who stops as soon as an interval leaves 0.
 
 import { interval, quantile } from "../parts/bootstrap.js";
-import { lifeRows } from "../parts/rows.js";
+import { runRows } from "../parts/rows.js";
 import { choice } from "../ui/controls.js";
 import { armStyle, count, make, number } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
@@ -11,7 +11,7 @@ import { combine, findingsOf, HOLDS, SAME, UNDECIDED, verdictsOf } from "./verdi
 const CLAIMS = { 1: "1", 2: "2", 3: "3", 4: "4", 5: "5", [SAME]: "each arm against itself" };
 const ORDERS = { 0: "as run", 1: "shuffled 1", 2: "shuffled 2", 3: "shuffled 3", 4: "shuffled 4" };
 const BETS = {
-  few: [5, "2 to 5 lives"],
+  few: [5, "2 to 5 runs"],
   some: [15, "6 to 15"],
   many: [30, "16 to 30"],
   most: [50, "more than 30"],
@@ -22,16 +22,16 @@ defineScene("filling", {
     const { state } = scene;
     const thousands = (x) => `${count(x / 1000)}k`;
     const percent = (x, sign = false) => `${sign && x > 0 ? "+" : ""}${number(100 * x)} %`;
-    const nameOf = (arm) => (arm === "none" ? "Q-learning" : armStyle(arm).name);
-    const boxes = lifeRows("Goals of a life, arm by arm");
-    const effects = lifeRows("What the claim rests on");
+    const nameOf = (arm) => armStyle(arm).name;
+    const boxes = runRows("Goals of a run, arm by arm");
+    const effects = runRows("What the claim rests on");
     const title = make("p", {});
     const now = make("p", {});
     const sign = scene.button("I sign now", () => scene.set({ signed: state.n }), {
       primary: true,
     });
     const order = choice({
-      label: "Order of the lives",
+      label: "Order of the runs",
       options: ORDERS,
       onInput: (k) => scene.set({ order: Number(k) }),
     });
@@ -44,47 +44,46 @@ defineScene("filling", {
     const judged = make("div", { class: "ab-scene" }, now, scene.row(sign));
     scene.add(
       scene.bet("bet", {
-        question: "Bet first: after how many lives of each arm would you sign claim 1?",
+        question: "Bet first: after how many runs of each arm would you sign claim 1?",
         options: Object.fromEntries(Object.entries(BETS).map(([key, [, text]]) => [key, text])),
       }),
       scene.row(scene.choice("claim", { label: "Claim", options: CLAIMS }), order.node),
       title,
-      scene.timeline("n", { label: "Lives", speeds: [1, 4, 12] }),
+      scene.timeline("n", { label: "Runs", speeds: [1, 4, 12] }),
       judged,
       make(
         "div",
         { class: "ab-columns" },
         part(
-          "Goals of a life. Box: how lives differ. Diamond and bar: their mean, 95 % interval",
+          "Goals of a run. Box: how runs differ. Diamond and bar: their mean, 95 % interval",
           boxes.node,
         ),
         compared,
       ),
     );
 
-    // What all lives say is Python's: data.readings.
+    // What all runs say is Python's: data.readings.
     function closing(runs) {
       const { claim, signed, data } = state;
       if (!state.bet || !signed) return "";
       const found = data.readings[claim];
       const n = found.stops.filter(Boolean);
-      const looks =
-        `who looks after each life from life ${data.firstLook} on, and signs as soon as`;
+      const looks = `who looks after each run from run ${data.firstLook} on, and signs as soon as`;
       if (claim === SAME) {
         return (
-          `You signed after ${signed} lives. Each arm was compared with itself, so there is nothing to sign. ` +
+          `You signed after ${signed} runs. Each arm was compared with itself, so there is nothing to sign. ` +
           `But a reader ${looks} the interval leaves 0, signs ${n.length} of ${found.stops.length} comparisons ` +
           `(nine arms, five orders): ${
             number((100 * n.length) / found.stops.length, 0)
-          } % wrong, where one look is wrong in 5 %. Fix the number of lives before you look.`
+          } % wrong, where one look is wrong in 5 %. Fix the number of runs before you look.`
         );
       }
       const truth = Object.keys(BETS).find((key) => found.settled <= BETS[key][0]);
       return (
         `${claim === "1" ? scene.betResult("bet", truth) : ""} You signed “${
           verdict(signed)
-        }” after ${signed} lives; all ${runs} say “${found.verdict}”. ` +
-        `From ${found.settled} lives on no order of five says otherwise. A reader ${looks} the claim is decided, ` +
+        }” after ${signed} runs; all ${runs} say “${found.verdict}”. ` +
+        `From ${found.settled} runs on no order of five says otherwise. A reader ${looks} the claim is decided, ` +
         `${
           n.length
             ? `stops after ${[...new Set(n)].sort((a, b) => a - b).join(", ")}`
@@ -113,13 +112,13 @@ defineScene("filling", {
         const goals = lives.map((life) => data.totals[i][life]);
         const sorted = [...goals].sort((a, b) => a - b);
         const box = [0, 0.25, 0.5, 0.75, 1].map((share) => quantile(sorted, share));
-        return { arm, name: nameOf(arm), lives: goals, box, interval: interval(goals), lit: true };
+        return { arm, name: nameOf(arm), runs: goals, box, interval: interval(goals), lit: true };
       });
       const all = data.totals.flat();
       const bounds = {
         from: Math.min(...all),
         to: Math.max(...all),
-        axis: "goals of a life",
+        axis: "goals of a run",
         format: thousands,
       };
       boxes.set({
@@ -127,14 +126,14 @@ defineScene("filling", {
         items: rows.map((row) => ({ ...row, text: thousands(row.interval[0]) })),
       });
       boxes.describe(
-        `Goals of ${n} lives: ${
+        `Goals of ${n} runs: ${
           rows.map((row) => `${row.name} ${thousands(row.interval[0])}`).join(", ")
         }`,
       );
 
       const isSame = claim === SAME;
       title.textContent = isSame
-        ? "A trap: each arm against itself, its lives shuffled twice. Nothing can be found here."
+        ? "A trap: each arm against itself, its runs shuffled twice. Nothing can be found here."
         : `Claim ${claim}: ${data.claims[claim].title}.`;
       compared.hidden = judged.hidden = !state.bet;
       const findings = state.bet ? findingsOf(data, claim, state.order, n) : [];
@@ -161,16 +160,16 @@ defineScene("filling", {
       const said = findings.length ? verdictsOf(findings, claim) : [];
       const decided = said.filter((each) => each !== UNDECIDED).length;
       now.textContent = isSame
-        ? `After ${n} lives: ${decided} of ${said.length} intervals leave 0.`
-        : `After ${n} lives: claim ${claim} ${said[0] === UNDECIDED ? "is undecided" : said[0]} (${
+        ? `After ${n} runs: ${decided} of ${said.length} intervals leave 0.`
+        : `After ${n} runs: claim ${claim} ${said[0] === UNDECIDED ? "is undecided" : said[0]} (${
           findings.filter((f) => f.verdict === HOLDS).length
         } of its ${findings.length} findings hold).`;
       effects.describe(now.textContent);
       if (state.bet && changed.has("n")) scene.say(now.textContent);
       scene.twin(() => ({
-        caption: `After ${n} of ${runs} lives, ${
+        caption: `After ${n} of ${runs} runs, ${
           ORDERS[state.order]
-        }: mean goals of a life, then effects, each with its 95 % interval.`,
+        }: mean goals of a run, then effects, each with its 95 % interval.`,
         head: ["of", "estimate", "low", "high", "verdict"],
         rows: [
           ...rows.map((row) => [row.name, ...row.interval.map(count), ""]),

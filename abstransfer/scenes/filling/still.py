@@ -1,4 +1,4 @@
-"""The still of the filling boxes: box plots after 3, 10 and all lives."""
+"""The still of the filling boxes: box plots after 3, 10 and all runs."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from ..parts.charts import Axis, Row, row_chart
 from ..parts.svg import look_of, short
 from .widget import Filling
 
-FRAMES = (3, 10)  # lives of the first two pictures; the last shows all
+FRAMES = (3, 10)  # runs of the first two pictures; the last shows all
 
 
 def draw(scene: Filling) -> Still:
     """Return the boxes three times, and the means of all."""
-    results, lives = read_results(scene.results), scene.data["lives"][scene.order]
-    taken = [lives[:n] for n in (*FRAMES, len(lives))]
+    results, order = read_results(scene.results), scene.data["lives"][scene.order]
+    taken = [order[:n] for n in (*FRAMES, len(order))]
     goals = {arm.name: results.totals(arm.name) for arm in results.arms}
     ends = [float(f(map(f, goals.values()))) for f in (min, max)]
     means = [
@@ -31,25 +31,28 @@ def draw(scene: Filling) -> Still:
         ]
         best = max(mean, key=lambda arm: mean[arm].estimate)
         alt = (
-            f"Box plots of the goals of {len(some)} lives, nine arms, with the mean "
+            f"Box plots of the goals of {len(some)} runs, nine arms, with the mean "
             f"and its interval. Best: {look_of(best).name}, {short(mean[best][0])}."
         )
         ticks = {end: short(end) for end in ends}
-        axis = Axis(*ends, ticks, f"goals of a life, {len(some)} lives")
+        axis = Axis(*ends, ticks, f"goals of a run, {len(some)} runs")
         frames.append(row_chart(boxes, axis, alt))
     found, trap = scene.reading("1"), scene.reading(SAME)
     signed = sum(map(bool, trap.stops))
     caption = (
         f"When would you sign? Claim 1 comes out as \u201c{found.verdict}\u201d "
-        f"from {found.settled} lives on, in each of {len(found.stops)} orders of "
-        f"{len(lives)} lives. But of {len(trap.stops)} comparisons of an arm with "
-        f"itself, a reader who looks after each life from life {FIRST_LOOK} on, "
+        f"from {found.settled} runs on, in each of {len(found.stops)} orders of "
+        f"{len(order)} runs. But of {len(trap.stops)} comparisons of an arm with "
+        f"itself, a reader who looks after each run from run {FIRST_LOOK} on, "
         f"and signs as soon as the interval leaves 0, signs {signed}: "
         f"{signed / len(trap.stops):.0%}."
     )
     rows = [
-        (arm, *("{:,.0f} [{:,.0f}, {:,.0f}]".format(*mean[arm]) for mean in means))
+        (
+            look_of(arm).name,
+            *("{:,.0f} [{:,.0f}, {:,.0f}]".format(*mean[arm]) for mean in means),
+        )
         for arm in goals
     ]
-    head = ("arm", *(f"mean of {len(some)} lives, interval" for some in taken))
+    head = ("arm", *(f"mean of {len(some)} runs, interval" for some in taken))
     return Still(frames, caption, head, rows)

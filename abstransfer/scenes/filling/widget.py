@@ -1,4 +1,4 @@
-"""The scene of page 9: box plots fill life by life; when would you sign?"""
+"""The scene of page 9: box plots fill run by run; when would you sign?"""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NINE = tuple(
 
 class Filling(Scene):
     """
-    Box plots that fill life by life: sign a claim when you would.
+    Box plots that fill run by run: sign a claim when you would.
 
     Parameters
     ----------
@@ -40,20 +40,20 @@ class Filling(Scene):
     claim : {"1", "2", "3", "4", "5", "same"}
         What is judged; "same" compares each arm with itself.
     order : int, 0 to 4
-        0: the lives as run; else a shuffle of them.
+        0: the runs as they ran; else a shuffle of them.
     n : int, 2 to 50
-        Lives that are shown.
+        Runs that are shown.
     signed : int
-        Lives after which the reader signed; 0 before.
+        Runs after which the reader signed; 0 before.
 
     Examples
     --------
     >>> scene = Filling(claim="2", n=10)
     >>> scene
     Filling(claim='2', n=10)
-    >>> scene.verdict()  # after 10 lives
+    >>> scene.verdict()  # after 10 runs
     'fails in part'
-    >>> scene.reading("2").settled  # lives from which on no order says otherwise
+    >>> scene.reading("2").settled  # runs from which on no order says otherwise
     4
     """
 
@@ -80,15 +80,15 @@ class Filling(Scene):
         return {k: v for k, v in super().changed.items() if k != "data"}
 
     def options(self) -> dict:
-        """Return the state of the built page, with the goals of all lives."""
+        """Return the state of the built page, with the goals of all runs."""
         return self.changed | {"data": self.data}
 
     def verdict(self, n: int | None = None) -> str:
-        """Return the verdict on `claim` after `n` lives, in the order of the scene."""
+        """Return the verdict on `claim` after `n` runs, in the order of the scene."""
         return _verdicts(self.results, self.claim)[self.order][(n or self.n) - 2]
 
     def reading(self, key: str) -> Stops:
-        """Return what a reader does who looks after each life, in five orders."""
+        """Return what a reader does who looks after each run, in five orders."""
         return read_along(_verdicts(self.results, key))
 
 

@@ -1,4 +1,4 @@
-// Climbing, page 6: a page of advice with two knobs, the land of its values, and the
+// Climbing, page 6: advice with two knobs, the land of its values, and the
 // path of AbsProb-PI from where the reader drops it.
 
 import { runFor } from "../engine/absprob_pi.js";
@@ -177,7 +177,7 @@ defineScene("hill", {
       scene.slider(name, { label, step: 0.01, format: (each) => number(each, 2) });
     scene.add(
       scene.bet("bet", {
-        question: "Bet first: does a climb always end on the same page, wherever it starts?",
+        question: "Bet first: does a climb always end at the same advice, wherever it starts?",
         options: ENDS,
       }),
       make(
@@ -203,7 +203,7 @@ defineScene("hill", {
       words.textContent =
         `Iteration ${state.t}: p = ${number(here.p, 2)}, q = ${
           number(here.q, 2)
-        }. This page is worth ${number(here.value, 2)}; ` +
+        }. This advice is worth ${number(here.value, 2)}; ` +
         `the first was worth ${number(first.value, 2)}. Left and up for sure: ${
           number(land.value(1, 1, state.start), 2)
         }; right and down: ${number(land.value(0, 0, state.start), 2)}.`;
@@ -230,7 +230,7 @@ defineScene("hill", {
         `at ${top(last)}: worth ${
           number(last.value, 2)
         } after ${land.LAST} iterations, within a tenth of that from iteration ${settled} on; ` +
-        `the best page is worth ${number(Math.max(...land.heights(state.start)), 2)}. ` +
+        `the best advice is worth ${number(Math.max(...land.heights(state.start)), 2)}. ` +
         `Of ${ends.length} starts, ${nLeft} end at left and up, ${
           ends.length - nLeft
         } at right and down.${own}`

@@ -56,17 +56,18 @@ const hall = {
   success: 1,
   possible: Uint8Array.of(1, 1, 1, 1, 1, 0),
 };
-const page = (p, q) => Float64Array.of(p, 1 - p, q, 1 - q, 1, 0);
+const advice = (p, q) => Float64Array.of(p, 1 - p, q, 1 - q, 1, 0);
 const dot = (weights, v) => weights.reduce((sum, weight, s) => sum + weight * v[s], 0);
 export const value = (p, q, start) =>
-  dot(STARTS[start], evaluatePolicy(hall, page(p, q), hall.rho));
+  dot(STARTS[start], evaluatePolicy(hall, advice(p, q), hall.rho));
 
 // Heights ((N + 1)^2,), row by row from q = 0; the values are found once for all starts.
 let known = null;
 export function heights(start) {
   known ??= Array.from(
     { length: (N + 1) ** 2 },
-    (_, i) => evaluatePolicy(hall, page((i % (N + 1)) / N, Math.floor(i / (N + 1)) / N), hall.rho),
+    (_, i) =>
+      evaluatePolicy(hall, advice((i % (N + 1)) / N, Math.floor(i / (N + 1)) / N), hall.rho),
   );
   return known.map((v) => dot(STARTS[start], v));
 }
@@ -74,7 +75,7 @@ export function heights(start) {
 // Each iteration of AbsProb-PI: { p, q, value, up: the slope of either knob }.
 export function climb(p, q, start, iterations = LAST) {
   const way = [];
-  const options = { initial: page(p, q), start: Float64Array.from(STARTS[start]), iterations };
+  const options = { initial: advice(p, q), start: Float64Array.from(STARTS[start]), iterations };
   for (const { policy, value, gradient } of absprobPi(hall, options)) {
     const up = [gradient[0] - gradient[1], gradient[2] - gradient[3]];
     way.push({ p: policy[0], q: policy[2], value, up });

@@ -29,7 +29,7 @@ def draw(scene: Hill) -> Still:
     caption = (
         f"Climbing with two knobs; the robot starts {WORDS[scene.start]}. From "
         f"p = {scene.p:g}, q = {scene.q:g} AbsProb-PI climbs from {low} to {high} in "
-        f"{LAST} iterations and ends {side(*_after(scene, LAST))}; the best page is "
+        f"{LAST} iterations and ends {side(*_after(scene, LAST))}; the best is "
         f"worth {number(heights.max(), 2)}. Of 100 starts, {n_left} end at left and up "
         f"(worth {left}), {100 - n_left} at right and down ({right}): a climb does not "
         "know of the other top."
@@ -69,7 +69,7 @@ def draw(scene: Hill) -> Still:
 
 @lru_cache(maxsize=len(STARTS))
 def _heights(start: str) -> np.ndarray:
-    """Return the values of the pages over the knobs, q from below, (n, n)."""
+    """Return the values of the advice over the knobs, q from below, (n, n)."""
     knobs = np.linspace(0, 1, SQUARES + 1)
     return np.array([[values_at(p, q) @ STARTS[start] for p in knobs] for q in knobs])
 

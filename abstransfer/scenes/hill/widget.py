@@ -1,4 +1,4 @@
-"""The scene of page 6: climbing the value of a page of advice with two knobs."""
+"""The scene of page 6: climbing the value of advice with two knobs."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ RHO = np.array([0, 1, 1, 2, 2])  # the landings look alike
 
 class Hill(Scene):
     """
-    A page of advice with two knobs, the land of its values, and climbs on it.
+    Advice with two knobs, the land of its values, and climbs on it.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class Hill(Scene):
     bet = traitlets.Unicode("").tag(sync=True, local=True)
 
     def value(self, p: float | None = None, q: float | None = None) -> float:
-        """Return what a page is worth: the one the climb starts from by default."""
+        """Return what advice is worth: that which the climb starts from by default."""
         knobs = (self.p if p is None else p, self.q if q is None else q)
         return float(np.dot(STARTS[self.start], values_at(*knobs)))
 
@@ -85,14 +85,14 @@ class Hill(Scene):
         return _ends(self.start)
 
 
-def page(p: float, q: float) -> np.ndarray:
-    """Return the page of advice (3, 2) with these knobs."""
+def advice(p: float, q: float) -> np.ndarray:
+    """Return the advice (3, 2) with these knobs."""
     return np.array([[p, 1 - p], [q, 1 - q], [0.5, 0.5]])
 
 
 def side(p: float, q: float) -> str:
     """
-    Return the top that a page is nearest to.
+    Return the top that advice is nearest to.
 
     >>> side(0.9, 0.8), side(0.2, 0.1), side(0.2, 0.9)
     ('at left and up', 'at right and down', 'in between')
@@ -103,13 +103,13 @@ def side(p: float, q: float) -> str:
 
 
 def values_at(p: float, q: float) -> np.ndarray:
-    """Return the values (5,) of a page: what each state is worth."""
-    return evaluate_policy(HALL, page(p, q)[RHO])
+    """Return the values (5,) under advice: what each state is worth."""
+    return evaluate_policy(HALL, advice(p, q)[RHO])
 
 
 @lru_cache(maxsize=512)
 def _climb(p: float, q: float, start: str, iterations: int) -> Climb:
-    options = {"initial": page(p, q), "start": np.array(STARTS[start])}
+    options = {"initial": advice(p, q), "start": np.array(STARTS[start])}
     return absprob_pi(
         HALL, RHO, np.ones((3, 2), bool), iterations=iterations, **options
     )

@@ -1,4 +1,4 @@
-// Table 1 as a ladder, page 7: pages of advice written in a source drive in two
+// Table 1 as a ladder, page 7: advice that was made in a source drives in two
 // buildings.  Edit the source, or how it is read, and the rungs move.
 
 import { absprobPi, ITERATIONS } from "../engine/absprob_pi.js";
@@ -12,7 +12,7 @@ import { makeEditor } from "../parts/editor.js";
 import { armStyle, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 
-const PAGES = ["nd", "prob", "grad"];
+const ADVICE = ["nd", "prob", "grad"];
 const SIDES = ["source", "target"];
 const ACTIONS = { relational: "go to what you see", compass: "north, east, south, west" };
 const GAPS = { // up to this share of the best driver's cost
@@ -21,7 +21,7 @@ const GAPS = { // up to this share of the best driver's cost
   more: [Infinity, "more than all of it again"],
 };
 const ORDERS = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]].map((order) =>
-  order.map((i) => PAGES[i])
+  order.map((i) => ADVICE[i])
 );
 
 // Yield { source, target, iteration, grad }, values by policy, as they are found.
@@ -61,13 +61,13 @@ defineScene("ladder", {
     scene.add(
       scene.bet("order", {
         question:
-          "Bet first: in the large building, which page drives best, which next, which last?",
+          "Bet first: in the large building, whose advice drives best, whose next, whose last?",
         options: Object.fromEntries(
           ORDERS.map((order) => [order.join(), order.map(name).join(", ")]),
         ),
       }),
       scene.bet("gap", {
-        question: "And how much more than the best driver does the best page pay there?",
+        question: "And how much more than the best driver does the best advice pay there?",
         options: Object.fromEntries(Object.entries(GAPS).map(([key, [, text]]) => [key, text])),
       }),
       make(
@@ -88,7 +88,7 @@ defineScene("ladder", {
         make(
           "div",
           { class: "ab-body" },
-          make("p", {}, "The source, where the pages are written. Edit it:"),
+          make("p", {}, "The source, where the advice is made. Edit it:"),
           me.tools.bar,
           me.view.node,
           me.legal,
@@ -132,7 +132,7 @@ defineScene("ladder", {
         scene.state[key] === scene.spec.state[key]
       );
     const isOpen = () => Boolean(scene.state.order && scene.state.gap);
-    const isHidden = (side, row) => side === "target" && PAGES.includes(row) && !isOpen();
+    const isHidden = (side, row) => side === "target" && ADVICE.includes(row) && !isOpen();
     const valueOf = (side, row) => (isHidden(side, row) ? null : (found?.[side][row] ?? null));
     // While the new rungs are not known, the old ones stay.
     const drawn = (side, row) =>
@@ -167,20 +167,20 @@ defineScene("ladder", {
       me.show();
     }
 
-    // How much more than the best driver the best page pays: 1 is as much again.
+    // How much more than the best driver the best advice pays: 1 is as much again.
     const gapOf = ({ target: { optimal, ...rest } }) =>
-      (optimal - Math.max(...PAGES.map((row) => rest[row]))) / -optimal;
+      (optimal - Math.max(...ADVICE.map((row) => rest[row]))) / -optimal;
     function closing() {
       if (!isDone()) return "";
       if (!isOpen()) {
-        return `In the source, where they were written, the pages stand at ${
-          priced("source", PAGES)
+        return `In the source, where it was made, the advice stands at ${
+          priced("source", ADVICE)
         }; the best driver at ` +
-          `${number(found.source.optimal)}. Place your bets, and they drive in the target.`;
+          `${number(found.source.optimal)}. Place your bets, and it drives in the target.`;
       }
-      const order = ranked("target", PAGES);
+      const order = ranked("target", ADVICE);
       const now =
-        `In the target: ${priced("target", ROWS)}. The best page, ${name(order[0])}, pays ` +
+        `In the target: ${priced("target", ROWS)}. The best advice, ${name(order[0])}, pays ` +
         `${number(100 * gapOf(found), 0)} % more than the best driver.`;
       if (found === first || isPapers()) {
         const gap = Object.keys(GAPS).find((key) => gapOf(found) <= GAPS[key][0]);
@@ -188,13 +188,13 @@ defineScene("ladder", {
           .trim();
       }
       if (!first) return now;
-      const old = ranked("target", PAGES, first);
+      const old = ranked("target", ADVICE, first);
       /** @type {[string, number][]} */
-      const moves = PAGES.map((row) => [row, found.target[row] - first.target[row]]);
+      const moves = ADVICE.map((row) => [row, found.target[row] - first.target[row]]);
       const [most, by] = moves.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
       const turn = old.join() === order.join()
-        ? "The order of the pages is as it was"
-        : `The order of the pages was ${list(old.map(name))}, and is ${list(order.map(name))}`;
+        ? "The order of the advice is as it was"
+        : `The order of the advice was ${list(old.map(name))}, and is ${list(order.map(name))}`;
       return `${now} ${turn}; ${name(most)} moved most, by ${by > 0 ? "+" : ""}${number(by)}.`;
     }
     const printed = (x, digits) => (Number.isFinite(x) ? number(x, digits) : "–");

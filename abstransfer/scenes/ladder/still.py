@@ -32,8 +32,8 @@ def draw(scene: Ladder) -> Still:
     texts = {side: _listed(column) for side, column in table.items()}
     caption = (
         f"Table 1 as a ladder: the mean value of a cell. In the source, where the "
-        f"pages are written: {texts['source']}. In the target: {texts['target']}. "
-        f"The best page there, {arm_style(best).name}, pays {number(more, 0)} % "
+        f"advice is made: {texts['source']}. In the target: {texts['target']}. "
+        f"The best advice there, {arm_style(best).name}, pays {number(more, 0)} % "
         "more than the best driver."
     )
     frames = []

@@ -24,7 +24,7 @@ class Ladder(DrawnScene):
     Parameters
     ----------
     source : Map, text or name, default the source map
-        Where the pages of advice are written; later, the last legal one drawn.
+        Where the advice is made; later, the last legal one drawn.
     text : str
         The drawing of it, legal or not.
     target : Map, text or name, default the target map

@@ -1,4 +1,4 @@
-// The bootstrap of page 9, number for number: NumPy's PCG64 draws the same lives.
+// The bootstrap of page 9, number for number: NumPy's PCG64 draws the same runs.
 
 import { seedState } from "../engine/random.js";
 
@@ -64,7 +64,7 @@ function pcg(seed) {
   };
 }
 
-// Which of n lives are drawn, RESAMPLES x n: default_rng(0).integers(0, n), Lemire's way.
+// Which of n runs are drawn, RESAMPLES x n: default_rng(0).integers(0, n), Lemire's way.
 const known = {};
 export function drawn(n) {
   if (known[n]) return known[n];
@@ -86,15 +86,15 @@ export function quantile(sorted, share) {
 }
 const sum = (x) => x.reduce((a, b) => a + b, 0);
 
-// [estimate, low, high] of mean(a) / mean(b) - 1, or of mean(a); life i of a with life i of b.
+// [estimate, low, high] of mean(a) / mean(b) - 1, or of mean(a); run i of a with run i of b.
 export function interval(a, b) {
   const n = a.length;
-  const [lives, found] = [drawn(n), new Float64Array(RESAMPLES)];
+  const [runs, found] = [drawn(n), new Float64Array(RESAMPLES)];
   for (let r = 0, i = 0; r < RESAMPLES; r++) {
     let [x, y] = [0, 0];
     for (const end = i + n; i < end; i++) {
-      x += a[lives[i]];
-      if (b) y += b[lives[i]];
+      x += a[runs[i]];
+      if (b) y += b[runs[i]];
     }
     found[r] = b ? x / y - 1 : x / n;
   }

@@ -1,4 +1,4 @@
-// Rows over one axis: a name, a text, and below them a box of lives with the mean of
+// Rows over one axis: a name, a text, and below them a box of runs with the mean of
 // them, or the interval of an effect.
 
 import { armStyle, drawn, make, marker } from "../ui/dom.js";
@@ -7,9 +7,9 @@ import { ticks } from "../ui/lines.js";
 const [ink, ground] = ["var(--ab-ink)", "var(--ab-ground)"];
 const [EDGE, HEIGHT, FOOT] = [10, 48, 34]; // margins, of a row
 
-// set({ items, from, to, axis, format, zero }); an item is { arm, name, text, lives,
+// set({ items, from, to, axis, format, zero }); an item is { arm, name, text, runs,
 // box: [min, quartile, median, quartile, max], interval: [mid, low, high], lit }.
-export function lifeRows(label) {
+export function runRows(label) {
   const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
   const node = make("div", { class: "ab-chartbox" }, svg);
   let data = null;
@@ -31,7 +31,7 @@ export function lifeRows(label) {
     if (zero !== undefined) parts.push(path(`M${px(zero)} 0V${bottom}`, "ab-mark"));
     parts.push(path(`M${EDGE} ${bottom}H${width - EDGE}`, "ab-axis"));
     parts.push(text(axis, width / 2, bottom + 30, "middle", "ab-faint"));
-    items.forEach(({ arm, name, text: words, lives, box, interval, lit }, i) => {
+    items.forEach(({ arm, name, text: words, runs, box, interval, lit }, i) => {
       const y = HEIGHT * i;
       const { color, isFilled } = armStyle(arm);
       const middle = y + 27;
@@ -52,8 +52,8 @@ export function lifeRows(label) {
           ),
           path(`M${median} ${middle - 6}v12`, "ab-line", `stroke:${line}`),
           path(
-            lives.map((x) => `M${px(x)} ${middle + 13}h.01`).join(""),
-            "ab-lives",
+            runs.map((x) => `M${px(x)} ${middle + 13}h.01`).join(""),
+            "ab-runs",
             `stroke:${color}`,
           ),
         );

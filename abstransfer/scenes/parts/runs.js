@@ -8,20 +8,14 @@ import { navigationTasks } from "../engine/navigation.js";
 import { PAPER_STEPS } from "../engine/paper.js";
 import { inducedPolicies, randomPolicy, uniformPolicy } from "../engine/policies.js";
 import { deducedPolicy } from "../engine/absprob_pi.js";
-import { count, list, millions } from "../ui/dom.js";
+import { armStyle, count, list, millions } from "../ui/dom.js";
 import { lineChart } from "../ui/lines.js";
 import { paper } from "../python.js";
 
 const { seed: SEED } = paper;
 export const { windows: WINDOWS } = paper; // of a run
-export const NAMES = {
-  none: "no advice",
-  rand: "random",
-  nd: "ND",
-  prob: "Prob",
-  grad: "Grad",
-  yours: "yours",
-};
+const ROBOTS = ["none", "rand", "nd", "prob", "grad", "yours"];
+export const NAMES = Object.fromEntries(ROBOTS.map((name) => [name, armStyle(name).name]));
 export const sum = (goals) => goals.reduce((total, n) => total + n, 0);
 export const windowOf = (steps) => Math.round(steps / WINDOWS);
 export const scaled = (tau, steps) => Math.round((tau * steps) / PAPER_STEPS);

@@ -7,24 +7,20 @@ from functools import lru_cache
 import numpy as np
 import traitlets
 
+from ...builders import BUILDERS
 from ...experiments.arms import PAPER_STEPS, SCALES, Arm, Scale
 from ...experiments.plan import SEED, STREAMS
 from ...experiments.problem import Problem, build_guides, target_tasks
 from ...experiments.results import read_results
 from ...learning import q_learning
+from ...plotting.style import arm_style
 from ..base import ArrayTrait, MapTrait, Scene
 from ..files import WINDOWS
 
 RUNS = 50  # of the stored experiments
 STORED = "goal-target"
-NAMES = {
-    "none": "no advice",
-    "rand": "random",
-    "nd": "ND",
-    "prob": "Prob",
-    "grad": "Grad",
-    "yours": "yours",
-}
+NAMES = {name: arm_style(name).name for name in ("none", "rand", *BUILDERS)}
+NAMES["yours"] = "yours"  # a policy that the reader wrote
 _done = {}  # runs made in this process
 
 

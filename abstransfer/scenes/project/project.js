@@ -4,23 +4,15 @@
 import { ITERATIONS } from "../engine/absprob_pi.js";
 import { abstractStates, FEATURES } from "../engine/navigation.js";
 import { makeEditor } from "../parts/editor.js";
-import { lifeRows } from "../parts/rows.js";
+import { runRows } from "../parts/rows.js";
 import { textButtons } from "../parts/tools.js";
 import { barChart } from "../ui/bars.js";
 import { button, toggle } from "../ui/controls.js";
-import { count, list, make, number, plural } from "../ui/dom.js";
+import { armStyle, count, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 import { sight } from "../ui/sights.js";
 import * as rules from "./race.js";
 
-const NAMES = {
-  nd: "ND",
-  prob: "Prob",
-  grad: "Grad",
-  eager: "eager",
-  rand: "random",
-  optimal: "optimal",
-};
 const FROM = {
   source: "the paper's source",
   target: "the paper's target",
@@ -28,16 +20,17 @@ const FROM = {
 };
 const WAYS = { hard: "hard: obey to the letter", soft: "soft: ever less often" };
 const BETS = { nd: "ND's", prob: "Prob's", grad: "Grad's", all: "all of them", none: "none" };
-const PAGES = ["nd", "prob", "grad"];
-const lived = (n) => (n === 1 ? "1 life" : `${n} lives`);
+const ADVICE = ["nd", "prob", "grad"];
+const lived = (n) => plural(n, "run");
 const armOf = (name) => (name === "eager" ? "uniform_available" : name);
+const nameOf = (name) => armStyle(armOf(name)).name;
 
 defineScene("project", {
   title: "Your turn: a race in your own building",
   build(scene) {
     const { state } = scene;
     let [found, isWanted, isBegun] = [null, false, false];
-    let [asked, done] = [1, 0]; // tenths of lives
+    let [asked, done] = [1, 0]; // tenths of runs
 
     const me = makeEditor(scene, { buildings: { "The school": scene.spec.state.text } });
     // Ticks of a list in the state; what an address holds is put in order.
@@ -68,17 +61,17 @@ defineScene("project", {
     const guides = () => listed("guides", rules.GUIDES);
 
     const bars = barChart({
-      label: "How each page drives here",
+      label: "How all advice drives here",
       format: (x) => number(x, 1),
       low: -100,
       high: 0,
     });
-    const dots = lifeRows("Goals of each life, beside the same life without advice");
+    const dots = runRows("Goals of each run, beside the same run without advice");
     const [status, told] = [1, 2].map(() => make("p", {}));
     const key = make(
       "p",
       { class: "ab-ylabel" },
-      "Dots: lives. Box: their quarters. Diamond: their mean, with a 95 % interval.",
+      "Dots: runs. Box: their quarters. Diamond: their mean, with a 95 % interval.",
     );
     const start = button("", () => race(), { primary: true });
     const stop = button("Stop", () => (scene.stop(), (isWanted = false), scene.redraw()));
@@ -97,7 +90,7 @@ defineScene("project", {
     );
     scene.add(
       scene.bet("bet", {
-        question: "Bet first: which pages help a robot in the school, compared with no advice?",
+        question: "Bet first: whose advice helps a robot in the school, compared with none?",
         options: BETS,
       }),
       make(
@@ -107,7 +100,7 @@ defineScene("project", {
         make(
           "div",
           { class: "ab-body" },
-          make("p", {}, "How each page drives here, before any learning: mean value of a cell."),
+          make("p", {}, "How all advice drives here, before any learning: mean value of a cell."),
           bars.node,
           told,
         ),
@@ -119,7 +112,7 @@ defineScene("project", {
         ticks("features", "The eleven features; tick what counts", FEATURES, sight),
       ),
       scene.row(
-        scene.choice("advice", { label: "The pages are written in", options: FROM }),
+        scene.choice("advice", { label: "The advice is made in", options: FROM }),
         scene.choice("strategy", { label: "Advice", options: WAYS }),
       ),
       scene.row(
@@ -127,9 +120,9 @@ defineScene("project", {
           "guides",
           "Robots, beside the one without advice; eager does whatever can be done",
           rules.GUIDES,
-          (name) => NAMES[name],
+          (name) => nameOf(name),
         ),
-        scene.slider("lives", { label: "Lives of each" }),
+        scene.slider("lives", { label: "Runs of each" }),
       ),
       scene.row(start.node, stop.node),
       status,
@@ -137,7 +130,7 @@ defineScene("project", {
       card,
     );
 
-    // ---- before the race: the pages, in slices
+    // ---- before the race: the advice, in slices
 
     const isReady = () => found?.iteration === ITERATIONS && found.drives.grad !== undefined;
     function prepare() {
@@ -163,7 +156,7 @@ defineScene("project", {
     const mayRace = () => state.bet && !me.problem && !scene.isLearning && !isWanted;
     function race() {
       if (!mayRace()) return;
-      if (isDone()) return scene.say("All these lives are lived.");
+      if (isDone()) return scene.say("All these runs are done.");
       isWanted = me.ask();
       if (isReady()) learn();
       else if (!me.isWorking()) prepare();
@@ -211,9 +204,9 @@ defineScene("project", {
       const found = guides().map((name) => rules.judge(name, livesOf(name), none));
       const words = found.map(({ name, gain, isHurt, n }) => {
         const share = Number.isFinite(gain) ? ` (${isHurt ? "" : "+"}${number(100 * gain)} %)` : "";
-        return `${NAMES[name]} ${isHurt ? "hurt" : "helped"} in ${n}${share}`;
+        return `${nameOf(name)} ${isHurt ? "hurt" : "helped"} in ${n}${share}`;
       });
-      const raced = found.filter(({ name }) => PAGES.includes(name));
+      const raced = found.filter(({ name }) => ADVICE.includes(name));
       const better = raced.filter(({ gain }) => gain > 0).map(({ name }) => name);
       const truth = { 0: "none", 1: better[0], 3: "all" }[better.length] ??
         list(better.map((name) => BETS[name]));
@@ -224,22 +217,22 @@ defineScene("project", {
       return (
         `${
           isSchool && raced.length === 3 ? scene.betResult("bet", truth) : ""
-        } A life without advice reaches ` +
+        } A run without advice reaches ` +
         `${count(mean)} goals. Of ${lived(lives)} with the same luck, ${list(words)}.` +
         `${
           found.some(({ n }) => n < lives) && lives < 20
-            ? " Where lives disagree, more lives tell more."
+            ? " Where runs disagree, more runs tell more."
             : ""
         }`
       ).trim();
     }
     function saying() {
       const { steps, tau } = rules.scale(me.map);
-      const length = `A life is ${count(steps)} steps, with advice in the first ${count(tau)}.`;
+      const length = `A run is ${count(steps)} steps, with advice in the first ${count(tau)}.`;
       if (me.problem) return "No race: the building is not legal yet.";
       if (!state.bet) return `${length} Bet first, then race.`;
       if (isWanted) {
-        return `${length} The pages are being written: Grad, ${
+        return `${length} The advice is being made: Grad, ${
           found?.iteration ?? 0
         } of ${ITERATIONS}.`;
       }
@@ -259,7 +252,7 @@ defineScene("project", {
       const { drives = {} } = found ?? {};
       bars.set(
         [...rules.GUIDES, "optimal"].map((name) => ({
-          name: NAMES[name],
+          name: nameOf(name),
           arm: armOf(name),
           value: drives[name] ?? null,
         })),
@@ -281,10 +274,10 @@ defineScene("project", {
       key.parentNode.hidden = !racing.length;
       dots.set(
         rules.picture(
-          racing.map((name) => ({ name: NAMES[name], arm: armOf(name), lives: more(name) })),
+          racing.map((name) => ({ name: nameOf(name), arm: armOf(name), runs: more(name) })),
         ),
       );
-      dots.describe(verdict() || "Goals of each life, beside the same life without advice");
+      dots.describe(verdict() || "Goals of each run, beside the same run without advice");
       card.hidden = !(isDone() && isReady());
       if (!card.hidden) {
         const { advice, strategy, lives } = state;

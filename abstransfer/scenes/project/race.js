@@ -1,4 +1,4 @@
-// A project: its pages of advice, how they drive, how long a life is, and the text to
+// A project: its advice, how it drives, how long a run is, and the text to
 // hand in.  See Python's `project` and `project_card`.
 
 import { absprobPi, ITERATIONS } from "../engine/absprob_pi.js";
@@ -16,7 +16,7 @@ const { seed: SEED } = paper;
 export const GUIDES = ["nd", "prob", "grad", "eager", "rand"];
 const half = (x) => Math.floor(x + 0.5);
 
-// Steps of a life and of advice, in the paper's proportions, rounded.
+// Steps of a run and of advice, in the paper's proportions, rounded.
 export function scale({ goals, nCells }) {
   const long = (PAPER_STEPS / spec.entries) * goals.length * nCells * 8;
   const unit = long >= 1e5 ? 1e4 : 100;
@@ -24,10 +24,10 @@ export function scale({ goals, nCells }) {
   return { steps, tau: unit * half((spec.tauShare * steps) / unit) };
 }
 
-const pages = {}; // written before, by building and features
+const made = {}; // advice of before, by building and features
 
-// Yield { tasks, drives, guides, iteration }: how the pages of a building ("source",
-// "target", "own") drive in a map, and the pages, as they are found.
+// Yield { tasks, drives, guides, iteration }: how the advice of a building ("source",
+// "target", "own") drives in a map, and the advice, as they are found.
 export function* preparing(map, features, advice) {
   const tasks = navigationTasks(map, { features });
   const found = { tasks, drives: {}, guides: {}, iteration: 0 };
@@ -40,7 +40,7 @@ export function* preparing(map, features, advice) {
   found.drives.optimal = mean(optimalValues(tasks));
   yield found;
   const key = advice + features;
-  if (!pages[key]) {
+  if (!made[key]) {
     const from = advice === "own"
       ? tasks
       : navigationTasks(parseMap(mapTexts[advice]), { features });
@@ -53,27 +53,27 @@ export function* preparing(map, features, advice) {
       found.iteration = iteration;
       yield found;
     }
-    if (advice !== "own") pages[key] = { nd, prob, grad };
+    if (advice !== "own") made[key] = { nd, prob, grad };
     drive("grad", grad);
-  } else for (const [name, policy] of Object.entries(pages[key])) drive(name, policy);
+  } else for (const [name, policy] of Object.entries(made[key])) drive(name, policy);
   found.iteration = ITERATIONS;
   yield found;
 }
 
-// Jobs of lives [robot, life] for `learnAll`.
-export function jobsOf(map, { features, strategy }, guides, lives) {
+// Jobs of runs [robot, run] for `learnAll`.
+export function jobsOf(map, { features, strategy }, guides, runs) {
   const tasks = navigationTasks(map, { features, reward: "goal" });
   const world = makeWorld(tasks);
   const { steps, tau } = scale(map);
-  const made = {};
-  return lives.map(([robot, life]) => ({
+  const own = {};
+  return runs.map(([robot, run]) => ({
     world,
     steps,
     window: steps / 10,
     seed: SEED,
-    key: [0, life],
+    key: [0, run],
     rule: { strategy, tau },
-    guide: robot === "none" ? null : (made[robot] ??= makeGuide(guides[robot], tasks.rho)),
+    guide: robot === "none" ? null : (own[robot] ??= makeGuide(guides[robot], tasks.rho)),
   }));
 }
 
@@ -81,7 +81,7 @@ const total = (goals) => goals.reduce((sum, n) => sum + n, 0);
 // By how much robots reached more than the one without advice: 0.1 is 10 %.
 const gainOf = (goals, none) => total(goals) / total(none) - 1;
 
-// What a race says of a robot: its gain, and in how many lives it was so.
+// What a race says of a robot: its gain, and in how many runs it was so.
 export function judge(name, goals, none) {
   const gain = gainOf(goals, none);
   const isHurt = gain < 0;
@@ -93,13 +93,13 @@ export function judge(name, goals, none) {
   };
 }
 
-// Goals more than the same life without advice, [{ name, arm, lives }], as `filling.rows`
-// draws them: a dot per life, their box, the mean with its interval.
+// Goals more than the same run without advice, [{ name, arm, runs }], as `runRows` draws
+// them: a dot per run, their box, the mean with its interval.
 export function picture(robots) {
   const signed = (n) => `${n > 0 ? "+" : ""}${count(n)}`;
   const items = robots.map((robot) => {
-    const sorted = [...robot.lives].sort((a, b) => a - b);
-    const interval = around(robot.lives);
+    const sorted = [...robot.runs].sort((a, b) => a - b);
+    const interval = around(robot.runs);
     const [mean, low, high] = interval.map(signed);
     const box = [0, 0.25, 0.5, 0.75, 1].map((share) => quantile(sorted, share));
     return {
@@ -109,7 +109,7 @@ export function picture(robots) {
       text: sorted.length > 1 ? `${mean} [${low}, ${high}]` : mean,
     };
   });
-  const all = [0, 1, ...robots.flatMap(({ lives }) => lives)];
+  const all = [0, 1, ...robots.flatMap(({ runs }) => runs)];
   const [low, high] = [Math.min(...all), Math.max(...all)];
   const margin = (high - low) / 12;
   const axis = "goals more than without advice, same luck";

@@ -13,16 +13,10 @@ from ...project.racing import Race
 from ...project.setup import ADVICE, GUIDES, PAPER_ENTRIES, PAPER_TAU, Setup, run
 from ..base import MapTrait
 from ..parts.drawn import DrawnScene
+from ..parts.svg import look_of
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
-NAMES = {
-    "nd": "ND",
-    "prob": "Prob",
-    "grad": "Grad",
-    "eager": "eager",
-    "rand": "random",
-    "optimal": "optimal",
-}
+NAMES = {name: look_of(name).name for name in (*GUIDES, "optimal")}
 SCHOOL = """\
 +-----+-----+-----+
 |     |     |     |
@@ -56,9 +50,11 @@ class Project(DrawnScene):
     guides : list of {"nd", "prob", "grad", "eager", "rand"}
         Who races, beside the robot without advice.
     advice : {"source", "target", "own"}
-        The building in which the pages are written; "own" is the map itself.
+        The building in which the advice is made; "own" is the map itself.
     strategy : {"hard", "soft"}
     lives : int, 1 to 20
+        Runs of each robot.
+        Runs of each robot.
     tool : {"wall", "door", "room", "corridor", "goal"}
 
     Examples
@@ -66,7 +62,7 @@ class Project(DrawnScene):
     >>> scene = Project(guides=["nd"], lives=2)
     >>> scene
     Project(guides=['nd'], lives=2)
-    >>> scene.goals  # of each life, by robot, after a race in the browser
+    >>> scene.goals  # of each run, by robot, after a race in the browser
     {}
     >>> scene.run().goals["nd"]  # the same race in Python
     array([43689, 44120])

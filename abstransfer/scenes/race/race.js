@@ -58,7 +58,9 @@ defineScene("race", {
       scene.slider("luck", { label: "Luck (run of the experiment)" }),
       scene.bet("bet", {
         question: `Bet first: which robot reaches most goals in ${all()}?`,
-        options: Object.fromEntries(racers.map((key) => [key, NAMES[key]])),
+        options: Object.fromEntries(
+          racers.map((key) => [key, key === "none" ? `${NAMES.none}, without advice` : NAMES[key]]),
+        ),
       }),
       full,
     );

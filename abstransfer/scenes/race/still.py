@@ -12,7 +12,7 @@ from .widget import LETTERS, Race
 
 GOT = {
     "none": "got no advice",
-    "rand": "got random advice",
+    "rand": "the wanderer advised",
     "yours": "your policy advised",
 }
 

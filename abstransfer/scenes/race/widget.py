@@ -11,7 +11,7 @@ from ..parts.runs import PolicyTrait, RunScene, scaled
 
 FIRST = 1000  # steps that can be looked at
 RACERS = ("none", "rand-hard", "prob-hard", "nd-hard")
-LETTERS = {"none": "Q", "rand": "R", "prob": "P", "nd": "N", "yours": "Y"}
+LETTERS = {"none": "Q", "rand": "W", "prob": "P", "nd": "N", "yours": "Y"}
 
 
 class Race(RunScene):
@@ -19,7 +19,7 @@ class Race(RunScene):
     Four robots in one building: which advice helps most to learn?
 
     They share the tasks, the starts and the luck; one gets no advice, the others
-    random advice, that of Prob and that of ND.
+    that of the wanderer, of Prob and of ND.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Race(RunScene):
     >>> Race(t=76)
     Race(t=76)
     >>> scene = Race()
-    >>> scene.goals  # by robot and window, once the page has learned all steps
+    >>> scene.goals  # by robot and window, once all steps are learned
     {}
     """
 

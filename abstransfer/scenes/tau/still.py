@@ -1,4 +1,4 @@
-"""The still of the slider for tau: no advice, the paper's tau, and the slider's."""
+"""The still of the slider for tau: Q-learning, the paper's tau, and the slider's."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def draw(scene: TauSlider) -> Still:
         f"How long should a guide advise? With {name}, {millions(scene.tau)} steps "
         f"of advice lead to {totals[2]} goals if it advises in all of them (hard), "
         f"to {totals[3]} if ever less often (soft); the paper's choices, "
-        f"{rows[0][1]} and {rows[1][1]}, to {totals[0]} and {totals[1]}; no advice, "
-        f"to {none}."
+        f"{rows[0][1]} and {rows[1][1]}, to {totals[0]} and {totals[1]}; plain "
+        f"Q-learning, to {none}."
     )
     frames = [_frame(scene, taus) for taus in ({}, paper, here)]
     head = ("advice", "until step \u03c4", "goals of a whole run")

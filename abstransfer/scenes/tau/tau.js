@@ -156,7 +156,7 @@ defineScene("tau", {
     }
     function told() {
       const { guide, tau, steps } = state;
-      if (!tau) return "No advice: hard and soft are plain Q-learning.";
+      if (!tau) return "No step of advice: hard and soft are plain Q-learning.";
       const until = `${NAMES[guide]} advises until step ${millions(tau)}`;
       const waiting = SIDES.map((side) => keyOf(side)).filter((key) => !isKnown(key));
       if (!waiting.length) {

@@ -77,7 +77,7 @@ test("a table has a line per window, and a dash for what is not known", () => {
   const curves = [
     { name: "ND", goals: Array.from({ length: 60 }, (_, i) => i) },
     { name: "Prob", goals: [7] },
-    { name: "random", goals: [] },
+    { name: "wanderer", goals: [] },
   ];
   const { head, rows } = table("", curves, 30e6);
 
