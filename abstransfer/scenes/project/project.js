@@ -61,7 +61,7 @@ defineScene("project", {
     const guides = () => listed("guides", rules.GUIDES);
 
     const bars = barChart({
-      label: "How all advice drives here",
+      label: "How well the advice drives here",
       format: (x) => number(x, 1),
       low: -100,
       high: 0,
@@ -100,7 +100,11 @@ defineScene("project", {
         make(
           "div",
           { class: "ab-body" },
-          make("p", {}, "How all advice drives here, before any learning: mean value of a cell."),
+          make(
+            "p",
+            {},
+            "How well the advice drives here, before any learning: mean value of a cell.",
+          ),
           bars.node,
           told,
         ),

@@ -54,7 +54,6 @@ class Project(DrawnScene):
     strategy : {"hard", "soft"}
     lives : int, 1 to 20
         Runs of each robot.
-        Runs of each robot.
     tool : {"wall", "door", "room", "corridor", "goal"}
 
     Examples
