@@ -1,7 +1,5 @@
 """Run the command line: ``python -m abstransfer``."""
 
-import sys
+from .cli import program
 
-from .cli import main
-
-sys.exit(main())
+program()

@@ -1,7 +1,8 @@
 """
-What Table 1 of two maps takes, said before the work where it is much.
+What a command takes, said before the work where it is much.
 
-Time and memory are about linear in the states, which are cells times goals.
+For Table 1 time and memory are about linear in the states, which are cells times
+goals; for learning time is linear in the steps.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ LONG, LARGE = 10, 2e9  # seconds and bytes from which a user is told
 # one core of a server of 2020; the parts of the source are held, not the target's.
 SECONDS = 4e-4, 2e-5
 BYTES = 800, 0
+STEP = 11e-9  # seconds of a step of learning, as in most stored results
 LEAST = 2e8  # bytes: the program itself, and the part that is worked on
 
 
@@ -44,6 +46,17 @@ def say_what_it_takes(source: Map, target: Map | None) -> None:
         )
 
 
+def say_how_long(n_steps: int, n_workers: int) -> None:
+    """Print one line on stderr where learning takes long."""
+    seconds = n_steps * STEP / n_workers
+    if seconds > LONG:
+        print(
+            f"abstransfer: {n_steps:,} steps; with {n_workers} at work this may take "
+            f"about {_spoken(seconds)}",
+            file=sys.stderr,
+        )
+
+
 def n_states(map_: Map) -> int:
     """Return the number of states of a map's tasks: cells times goals."""
     return map_.n_cells * len(map_.goals)
@@ -60,7 +73,14 @@ def memory() -> int | None:
 def _spoken(seconds: float) -> str:
     """Return a time as a person says it.
 
-    >>> _spoken(42), _spoken(1000)
-    ('42 s', '17 min')
+    >>> _spoken(42), _spoken(1000), _spoken(1e6)
+    ('42 s', '17 min', '12 days')
     """
-    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
+    for most, unit, name in (
+        (120, 1, "s"),
+        (7200, 60, "min"),
+        (172_800, 3600, "hours"),
+    ):
+        if seconds < most:
+            return f"{seconds / unit:.0f} {name}"
+    return f"{seconds / 86_400:,.0f} days"

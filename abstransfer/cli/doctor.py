@@ -6,6 +6,7 @@ Only the standard library is used: it answers where nothing else is installed.
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -25,6 +26,10 @@ BROWSERS = (
 INSTALL = 'pip install -c constraints.txt -e ".[test]"'
 
 
+HELP = "is this machine ready, and what to do if not"
+DESCRIPTION = "Check versions, kernel and browser."
+
+
 class Check(NamedTuple):
     """One thing that was looked at."""
 
@@ -32,6 +37,24 @@ class Check(NamedTuple):
     ok: bool
     found: str  # a version, a path, or "nothing"
     remedy: str  # what to do if not ok; else ""
+
+
+def add_options(parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("--json", action="store_true", help="print JSON")
+
+
+def run(arguments) -> int:
+    """Print what was found; return 1 where something is missing."""
+    checks = diagnose()
+    if arguments.json:
+        print(json.dumps([check._asdict() for check in checks], indent=2))
+    else:
+        for check in checks:
+            print(f"{'ok' if check.ok else 'MISSING':8} {check.name}: {check.found}")
+            if not check.ok:
+                print(f"{'':8} {check.remedy}")
+    return 0 if all(check.ok for check in checks) else 1
 
 
 def diagnose() -> list[Check]:

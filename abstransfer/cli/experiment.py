@@ -1,111 +1,87 @@
 """
-The commands ``experiment`` and ``figures``.
+The command ``experiment``.
 """
 
 from __future__ import annotations
 
-import sys
+import os
 
-from .._paths import DATA
 from ..experiments.arms import SCALES
 from ..experiments.plan import SEED
-from .learn import MAP_HELP, add_problem, count, option, problem_of, progress_bar
+from .cost import say_how_long
+from .options import (
+    add_folder,
+    add_map,
+    add_option,
+    add_problem,
+    problem_of,
+    progress_bar,
+)
+
+HELP = "many runs of the nine arms; resumes what was interrupted"
+DESCRIPTION = (
+    "Run the nine arms of Figures 3 and 4. Results go to a folder; the same command "
+    "again resumes an interrupted experiment."
+)
+KEPT = "what is done is kept in {}; the same command goes on from there"
 
 
-def add_experiment(commands) -> None:
-    parser = commands.add_parser(
-        "experiment",
-        help="many runs of the nine arms; resumes what was interrupted",
-        description="Run the nine arms of Figures 3 and 4. Results go to a folder; "
-        "the same command again resumes an interrupted experiment.",
-    )
-    parser.set_defaults(run=_run_experiment)
-    scale_help = "1, 10 or 30 million steps a run; tau shrinks along (paper)"
-    parser.add_argument(
-        "--scale", default="paper", choices=tuple(SCALES), help=scale_help
-    )
-    parser.add_argument("--out", required=True, metavar="DIR", help="folder of results")
-    option(parser, "--jobs", None, "N", "processes (one per processor)", count)
-    option(parser, "--runs", None, "N", "runs per arm (50; 10 in a grid)", count)
-    option(parser, "--target", "target", "MAP", "building to learn in: " + MAP_HELP)
+def add_options(parser) -> None:
+    """Add the options of the command."""
+    text = "1, 10 or 30 million steps a run; tau shrinks along"
+    add_option(parser, "scale", "paper", text, tuple(SCALES))
+    add_folder(parser, "out", "folder of results", required=True)
+    add_option(parser, "jobs", None, "processes (one per processor)")
+    add_option(parser, "runs", None, "runs per arm (50; 10 in a grid)")
+    add_map(parser, "target", "target", "building to learn in")
     add_problem(parser)
-    option(parser, "--seed", SEED, "K", "seed of the experiment", count)
+    add_option(parser, "seed", SEED, "seed of the experiment")
     what = parser.add_mutually_exclusive_group()
-    what.add_argument(
-        "--tau-grid", action="store_true", help="every guided arm at ten tau"
+    text = "every guided arm at ten tau"
+    what.add_argument("--tau-grid", action="store_true", help=text)
+    add_folder(what, "tuned", "use the best tau of the grid in this folder")
+    text = (
+        "all that the book shows: both rewards, grids, tuned tau, four buildings, and "
+        "what makes advice teach (page 10)"
     )
-    what.add_argument(
-        "--tuned", metavar="DIR", help="use the best tau of the grid in this folder"
-    )
-    what.add_argument(
-        "--everything",
-        action="store_true",
-        help="all that the book shows: both rewards, grids, tuned tau, four buildings, "
-        "and what makes advice teach (page 10)",
-    )
+    what.add_argument("--everything", action="store_true", help=text)
 
 
-def add_figures(commands) -> None:
-    parser = commands.add_parser(
-        "figures",
-        help="Figures 3 and 4, table of tau and ledger, from stored results",
-        description="Make figures (SVG, PNG) and tables (CSV, Markdown).",
-    )
-    parser.set_defaults(run=_run_figures)
-    parser.add_argument(
-        "--out", required=True, metavar="DIR", help="folder to write to"
-    )
-    stored = str(DATA / "results")
-    option(
-        parser, "--results", stored, "DIR", "folder of experiments (the stored ones)"
-    )
+def run(arguments) -> int:
+    """Run an experiment, or all of them, and print what came out."""
+    from ..reproduction.catalogue import EXPERIMENTS, Experiment, reproduce
 
-
-def _run_experiment(arguments) -> int:
-    from ..experiments.run import run_experiment
-    from ..reproduction.catalogue import Experiment, reproduce
-
-    if arguments.everything and (arguments.reward, arguments.target) != (
-        "goal",
-        "target",
-    ):
-        raise ValueError("--everything has its own --reward and --target")
-    bars = _Bars()
-    try:
-        if arguments.everything:
-            reproduce(
-                arguments.out,
-                scale=arguments.scale,
-                problem=problem_of(arguments, arguments.target),
-                n_runs=arguments.runs,
-                seed=arguments.seed,
-                n_workers=arguments.jobs,
-                on_start=lambda experiment: bars.new(experiment.folder),
-            )
-        else:
-            grid = arguments.tau_grid
-            what = Experiment("", 0, grid=grid, tuned_by=arguments.tuned)
-            runs = arguments.runs if arguments.runs is not None else 10 if grid else 50
-            run_experiment(
-                what.arms(""),
-                problem_of(arguments, arguments.target),
-                scale=arguments.scale,
-                n_runs=runs,
-                seed=arguments.seed,
-                stream="tune" if grid else "report",
-                n_workers=arguments.jobs,
-                out=arguments.out,
-                on_progress=bars.new("experiment"),
-            )
-    except (KeyboardInterrupt, ChildProcessError):
-        bars.close()
-        print(
-            f"abstransfer: what is done is kept in {arguments.out}; "
-            "the same command goes on from there",
-            file=sys.stderr,
+    experiments = EXPERIMENTS
+    if not arguments.everything:
+        grid, tuned = arguments.tau_grid, arguments.tuned
+        one = Experiment(
+            folder=".",
+            n_runs=10 if grid else 50,
+            reward=arguments.reward,
+            target=arguments.target,
+            grid=grid,
+            tuned_by=tuned and os.path.abspath(tuned),
         )
-        raise
-    bars.close()
+        experiments = (one,)
+    elif (arguments.reward, arguments.target) != ("goal", "target"):
+        raise ValueError("--everything has its own --reward and --target")
+    bars = _Bars(arguments.jobs)
+    try:
+        reproduce(
+            arguments.out,
+            experiments=experiments,
+            problem=problem_of(arguments, arguments.target),
+            scale=arguments.scale,
+            n_runs=arguments.runs,
+            seed=arguments.seed,
+            n_workers=arguments.jobs,
+            on_start=lambda experiment: bars.new(experiment.folder),
+        )
+    except (KeyboardInterrupt, ChildProcessError) as error:
+        said = [*map(str, error.args), KEPT.format(arguments.out)]
+        raise type(error)("; ".join(said)) from None
+    finally:
+        bars.close()
     print(_summary(arguments.out))
     return 0
 
@@ -125,31 +101,22 @@ def _summary(out: str) -> str:
     return "\n".join(lines)
 
 
-def _run_figures(arguments) -> int:
-    from ..reproduction.figures import make_figures
-
-    make_figures(arguments.results, arguments.out, on_file=print)
-    return 0
-
-
 class _Bars:
     """Progress bars on stderr, one experiment after another."""
 
-    def __init__(self):
-        self.bar = None
+    def __init__(self, n_workers: int | None):
+        self.n_workers, self.bar = n_workers or os.cpu_count() or 1, None
 
     def new(self, name: str):
         """Return an `on_progress` that draws a bar of steps."""
         self.close()
-        before = 0
+        name = "experiment" if name == "." else name
 
         def show(done: int, total: int) -> None:
-            nonlocal before
             if self.bar is None:
+                say_how_long(total - done, self.n_workers)
                 self.bar = progress_bar(name, total, done)
-            else:
-                self.bar.update(done - before)
-            before = done
+            self.bar.update(done - self.bar.n)
 
         return show
 

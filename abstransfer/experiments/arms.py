@@ -9,6 +9,7 @@ module.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -88,9 +89,9 @@ def check_arms(arms: Iterable[Arm]) -> tuple[Arm, ...]:
     if not arms:
         raise ValueError("arms must hold at least one arm, got none")
     for arm in arms:
-        if not arm.name or any(c in arm.name for c in ',"\n'):
+        if not re.fullmatch(r"[ !#-+\--~]+", str(arm.name)):  # plain in a table
             raise ValueError(
-                f"the name of an arm must be a plain word, got {arm.name!r}"
+                f"the name of an arm must be a plain word (ASCII), got {arm.name!r}"
             )
         if arm.strategy not in STRATEGIES:
             raise ValueError(

@@ -5,17 +5,19 @@ The plan of an experiment: everything it depends on, checked before a step is ru
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from operator import index
 from typing import NamedTuple
 
 import numpy as np
 
+from ..driving import advised
+from ..learning.settings import exact_seed, whole
 from .arms import SCALES, Arm, Scale, check_arms
-from .problem import GUIDES, Problem, build_guides, digest
+from .problem import GUIDES, Problem, build_guides, digest, target_tasks
 from .workers import Job
 
 SEED = 2015  # the year of the paper
 STREAMS = {"report": 0, "tune": 1}
+MOST_WINDOWS = 10_000_000  # of all runs together, which are held in memory
 CHUNK = 6  # runs in a job; they share the loop, so that none waits for memory alone
 
 
@@ -56,16 +58,21 @@ def make_plan(
         if scale not in SCALES:
             raise ValueError(f"scale must be one of {tuple(SCALES)}, got {scale!r}")
         scale = SCALES[scale]
-    if not 1 <= scale.window <= scale.steps or scale.steps % scale.window:
+    elif not isinstance(scale, Scale):
+        raise ValueError(f"scale must be a Scale or its name, got {scale!r}")
+    scale = Scale(whole("steps", scale.steps, 1), whole("window", scale.window, 1))
+    if scale.steps % scale.window:
         raise ValueError(f"scale must be made of whole windows, got {scale}")
-    n_runs, seed = index(n_runs), index(seed)
-    if n_runs < 1:
-        raise ValueError(f"n_runs must be at least 1, got {n_runs}")
-    if seed < 0:
-        raise ValueError(f"seed must be at least 0, got {seed}")
+    n_runs, seed = whole("n_runs", n_runs, 1), exact_seed("seed", seed)
     if stream not in STREAMS:
         raise ValueError(f"stream must be one of {tuple(STREAMS)}, got {stream!r}")
     arms, problem, guides = check_arms(arms), problem or Problem(), dict(guides or {})
+    n_windows = len(arms) * n_runs * (scale.steps // scale.window)
+    if n_windows > MOST_WINDOWS:
+        raise ValueError(
+            f"arms x runs x windows must be at most {MOST_WINDOWS:,}, which fit in "
+            f"memory, got {n_windows:,}; take fewer runs, or longer windows"
+        )
     wanted = {arm.guide: arm for arm in arms if arm.guide}
     for name, arm in wanted.items():
         if name not in (*GUIDES, *guides):
@@ -73,8 +80,13 @@ def make_plan(
             raise ValueError(
                 f"guide of arm {arm.name!r} must be one of {known}, got {name!r}"
             )
+    for name, guide in guides.items():
+        try:
+            advised(target_tasks(problem), guide)
+        except ValueError as error:
+            raise ValueError(f"guide {name!r} is none: {error}") from None
     built = build_guides(problem, [name for name in wanted if name not in guides])
-    guides = {name: (guides | built)[name] for name in wanted}
+    guides = {name: np.asarray((guides | built)[name]) for name in wanted}
     return Plan(arms, problem, scale, n_runs, seed, stream, guides)
 
 

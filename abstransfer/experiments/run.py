@@ -19,12 +19,13 @@ from pathlib import Path
 import numpy as np
 
 from ..driving import executed_values
+from ..learning.settings import whole
 from .arms import ARMS, Arm, Scale
 from .plan import SEED, Plan, make_jobs, make_plan, parameters
 from .problem import Problem, driving_tasks
 from .results import Results, load_results
 from .store import Store, claim
-from .workers import run_jobs
+from .workers import MOST_WORKERS, run_jobs
 
 
 def run_experiment(
@@ -88,8 +89,8 @@ def run_experiment(
     plan = make_plan(
         arms, problem, scale, n_runs, seed=seed, stream=stream, guides=guides
     )
-    if n_workers is not None and n_workers < 1:
-        raise ValueError(f"n_workers must be at least 1, got {n_workers}")
+    if n_workers is not None:
+        n_workers = whole("n_workers", n_workers, 1, MOST_WORKERS)
     if out is None:
         store = Store(plan.shape)
     else:

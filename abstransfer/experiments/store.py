@@ -76,7 +76,11 @@ class FolderStore(Store):
             if self.key is None:
                 message = "its first line is damaged; remove the file to begin anew"
                 raise ValueError(f"{self.path}: {message}")
-            _refuse_other(folder, _body(first)["parameters"], parameters)
+            if not others:  # nothing was done, so another experiment may begin
+                file.truncate(0)
+                first = b""
+            else:
+                _refuse_other(folder, _body(first)["parameters"], parameters)
             for line in others:
                 if _open_seal(line, self.key):
                     super().save(**_body(line))

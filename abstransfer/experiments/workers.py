@@ -9,11 +9,13 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +24,8 @@ from ..driving import advised
 from .arms import Scale
 from .problem import Problem, target_tasks
 
+MOST_WORKERS = 1000
+SLICE = 5_000_000  # steps after which a job hears that it is to stop
 STOP = threading.Event()  # set in a worker process whose parent wants no more
 
 
@@ -45,7 +49,7 @@ def run_job(
 
     `on_progress` is told the steps just taken, summed over the runs.
     """
-    from ..learning import q_learning_runs
+    from ..learning import Learner
 
     def go_on(n_steps: int) -> None:
         if STOP.is_set():
@@ -57,11 +61,9 @@ def run_job(
     tasks, problem = target_tasks(job.problem), job.problem
     guide = None if job.guide is None else advised(tasks, job.guide)
     began = time.thread_time()
-    runs = q_learning_runs(
+    learner = Learner(
         tasks.mdp,
-        job.scale.steps,
         rngs=job.seeds,
-        on_progress=go_on,
         guide=guide,
         strategy=job.strategy,
         tau=job.tau,
@@ -72,7 +74,10 @@ def run_job(
         max_episode=problem.max_episode,
         window=job.scale.window,
     )
-    return np.array([run.goals for run in runs]), time.thread_time() - began
+    for first in range(0, job.scale.steps, SLICE):
+        learner.advance(min(SLICE, job.scale.steps - first), on_progress=go_on)
+    goals = np.array([run.goals for run in learner.results()])
+    return goals, time.thread_time() - began
 
 
 def run_jobs(
@@ -90,35 +95,59 @@ def run_jobs(
     if not jobs:
         return
     if executor is not None:
-        _collect(jobs, executor, on_result)
-        return
+        futures = _submit(jobs, executor)
+        try:
+            return _collect(futures, on_result)
+        finally:
+            for future in futures:
+                future.cancel()
     # Not fork: it would copy threads in an unknown state.
     context = multiprocessing.get_context("spawn")
     reader, writer = context.Pipe(duplex=False)
     n_workers = min(n_workers or os.cpu_count() or 1, len(jobs))
-    with ProcessPoolExecutor(
-        n_workers, context, initializer=_start_worker, initargs=(reader,)
-    ) as pool:
-        try:
-            _collect(jobs, pool, on_result)
-        except BrokenProcessPool:
-            raise ChildProcessError(
-                "a worker process died (is there enough memory?); what was done is "
-                "stored if there is a folder for it: run the same again"
-            ) from None
-        except BaseException:
-            writer.close()  # the workers stop in the middle of their jobs
-            raise
-
-
-def _collect(jobs, executor, on_result) -> None:
-    futures = {executor.submit(run_job, job): key for key, job in jobs.items()}
+    pool = None
     try:
-        for future in as_completed(futures):
-            on_result(futures[future], *future.result())
+        pool = ProcessPoolExecutor(
+            n_workers, context, initializer=_start_worker, initargs=(reader,)
+        )
+        with _interrupts_held():  # by the workers for good: Ctrl-C is for the parent
+            futures = _submit(jobs, pool)
+        _collect(futures, on_result)
+    except BrokenProcessPool:
+        raise ChildProcessError(
+            "a worker process died (is there enough memory?); what was done is "
+            "stored if there is a folder for it: run the same again"
+        ) from None
+    except BrokenPipeError:
+        message = f"no worker process could be started with {sys.executable}"
+        raise ChildProcessError(message) from None
     finally:
-        for future in futures:
-            future.cancel()
+        with _interrupts_held():
+            writer.close()  # the workers stop in the middle of their jobs
+            if pool is not None:
+                pool.shutdown(cancel_futures=True)
+
+
+def _submit(jobs, executor) -> dict:
+    return {executor.submit(run_job, job): key for key, job in jobs.items()}
+
+
+def _collect(futures, on_result) -> None:
+    for future in as_completed(futures):
+        on_result(futures[future], *future.result())
+
+
+@contextmanager
+def _interrupts_held():
+    """Let Ctrl-C wait; processes that are started meanwhile never hear it."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _start_worker(reader) -> None:

@@ -87,6 +87,16 @@ def test_a_seed_makes_the_run(capsys):
     assert first == again != other
 
 
+def test_seeds_are_exact_whatever_their_size(capsys):
+    """2^53 + 1 is no double."""
+    runs = [
+        json.loads(run(capsys, *LEARN, "--json", "--seed", str(seed))[1])["per_window"]
+        for seed in (2**53, 2**53 + 1, 2**200, 2**200 + 1)
+    ]
+
+    assert len(set(map(tuple, runs))) == 4
+
+
 @pytest.mark.parametrize(
     "options",
     [
@@ -135,10 +145,16 @@ def test_tau_is_the_papers_shrunk_to_the_steps(capsys):
             ["learn", "--epsilon", "nan"],
             "epsilon must be a number from 0 to 1, got nan",
         ),
-        (["learn", "--steps", "0"], "--steps must be at least 1, got 0"),
-        (["learn", "--window", "0"], "--window must be at least 1, got 0"),
-        (["experiment", "--out", "x", "--runs", "0"], "n_runs must be at least 1"),
-        (["experiment", "--out", "x", "--jobs", "0"], "n_workers must be at least 1"),
+        (["learn", "--steps", "0"], "--steps must be a whole number from 1 to"),
+        (["learn", "--window", "0"], "--window must be a whole number from 1 to"),
+        (
+            ["experiment", "--out", "x", "--runs", "0"],
+            "n_runs must be a whole number",
+        ),
+        (
+            ["experiment", "--out", "x", "--jobs", "0"],
+            "n_workers must be a whole number",
+        ),
         (
             ["experiment", "--out", "x", "--gamma", "1.1"],
             "gamma must be a number from 0 to 1",
@@ -152,6 +168,10 @@ def test_tau_is_the_papers_shrunk_to_the_steps(capsys):
             "--everything has its own",
         ),
         (["experiment", "--out", "map.txt/x"], "Not a directory"),
+        (["experiment", "--out", "x", "--runs", "1e9"], "at most 10,000,000"),
+        (["experiment", "--out", "x", "--jobs", "1e6"], "n_workers must be a whole"),
+        (["learn", "--steps", "1e18", "--guide", "nd"], "--steps must be a whole"),
+        (["learn", "--steps", "1e9", "--window", "1"], "windows must be a whole"),
         (["figures", "--out", "x", "--results", "y"], "y: no finished experiment here"),
     ],
 )
@@ -171,6 +191,8 @@ def test_bad_input_ends_with_a_message_and_code_2(
     ("arguments", "message"),
     [
         (["learn", "--steps", "7.5"], "--steps: must be a whole number"),
+        (["learn", "--seed", "-1"], "--seed: must be a whole number"),
+        (["learn", "--seed", "1e99999"], "--seed: must be a whole number"),
         (["learn", "--steps", "many"], "--steps: must be a whole number"),
         (["learn", "--guide", "best"], "invalid choice: 'best'"),
         (["experiment"], "--out"),
@@ -334,3 +356,41 @@ def test_only_what_needs_them_imports_numba_and_matplotlib():
 
 def test_goals_are_whole_numbers(uninterrupted):
     assert load_results(uninterrupted).goals.dtype == np.int64
+
+
+def test_closed_streams_are_no_error_and_nothing_is_written_into_results(tmp_path):
+    """With 1 and 2 closed, the next file that is opened would be number 1."""
+    command = f"{sys.executable} -m abstransfer"
+    small = "--scale page --target source --runs 1 --jobs 1 --out"
+    for line in (
+        f"{command} table1 --source-only >&-",
+        f"{command} learn --map source --steps 1000 >&- 2>&-",
+        f"{command} experiment {small} {tmp_path / 'out'} >&- 2>&-",
+    ):
+        done = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
+        assert (done.returncode, done.stderr) == (0, ""), line
+    assert load_results(tmp_path / "out").goals.shape == (9, 1, 50)
+
+
+def test_workers_that_cannot_start_are_told(tmp_path, capsys, monkeypatch):
+    import multiprocessing.spawn
+
+    before = multiprocessing.spawn.get_executable()
+    multiprocessing.set_executable("/bin/false")
+    try:
+        code, _, err = run(capsys, *PAGE, "--runs", "18", "--out", str(tmp_path))
+    finally:
+        multiprocessing.set_executable(before)
+
+    assert code == 2
+    assert "worker process" in err
+    assert "the same command goes on from there" in err
+
+
+def test_what_takes_long_is_said_before(capsys, monkeypatch):
+    """The day before it is over, a user can ask for less."""
+    monkeypatch.setattr("abstransfer.cli.learn.run_job", lambda *_: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        main(["learn", "--map", "source", "--steps", "6e10"])
+
+    assert "this may take about 11 min" in capsys.readouterr().err

@@ -244,12 +244,14 @@ def test_a_folder_of_another_experiment_is_refused_by_name(
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        ({"n_runs": 0}, "n_runs must be at least 1, got 0"),
+        ({"n_runs": 0}, "n_runs must be a whole number from 1 to .*, got 0"),
         ({"scale": "huge"}, r"scale must be one of \('page', 'class', 'paper'\)"),
         ({"scale": Scale(10, 3)}, "whole windows"),
         ({"stream": "x"}, "stream must be one of"),
-        ({"seed": -1}, "seed must be at least 0"),
-        ({"n_workers": 0}, "n_workers must be at least 1"),
+        ({"seed": -1}, "seed must be an int >= 0"),
+        ({"seed": 1.0}, "seed must be an int >= 0, not a float, got 1.0"),
+        ({"n_runs": 10_000_000}, "at most 10,000,000, .* got 90,000,000"),
+        ({"n_workers": 0}, "n_workers must be a whole number from 1 to 1,000, got 0"),
         ({"arms": ()}, "at least one arm"),
         (
             {"arms": (ARMS[0], ARMS[0])},
@@ -260,6 +262,11 @@ def test_a_folder_of_another_experiment_is_refused_by_name(
         ({"arms": (Arm("x", "nd", "hard", float("nan")),)}, "tau of arm 'x'"),
         ({"arms": (Arm("x", "best", "hard", 5),)}, "guide of arm 'x' must be one of"),
         ({"arms": (Arm("a,b", None, "hard", 0),)}, "plain word"),
+        ({"arms": (Arm("caf\xe9", None, "hard", 0),)}, "plain word"),
+        ({"arms": (Arm("a\r", None, "hard", 0),)}, "plain word"),
+        ({"guides": {"x": np.full((2048, 8), np.nan)}}, "guide .x. is none: .* nan"),
+        ({"guides": {"x": np.ones((2048, 8))}}, "guide .x. is none: .* sum to 1"),
+        ({"guides": {"x": np.ones((7, 8))}}, "guide .x. is none: .* shape"),
         (
             {"arms": (Arm("x", None, "hard", 0, float("inf")),)},
             "hint of arm 'x' must be finite, got inf",

@@ -182,7 +182,10 @@ class Folder(RuleBasedStateMachine):
         assert isinstance(error, ValueError | OSError)
 
     def own(self, reward):
-        self.owner = self.owner or reward
+        """Whose the folder is, once something was done for an experiment."""
+        there = self.bytes()
+        if TABLE in there or there.get(UNFINISHED, b"").count(b"\n") > 1:
+            self.owner = self.owner or reward
 
     # What people do
 
@@ -221,8 +224,7 @@ class Folder(RuleBasedStateMachine):
             event("killed")
         except (ValueError, OSError) as error:
             self.refused(error)
-        if self.bytes():
-            self.own(reward)
+        self.own(reward)
 
     @rule(reward=st.sampled_from(REWARDS), second=st.sampled_from(REWARDS))
     def start_twice(self, reward, second):
@@ -299,6 +301,24 @@ class Meddled(Folder):
         if name in self.bytes():
             (self.folder / name).unlink()
             self.meddled = True
+
+
+def test_a_table_is_never_replaced_without_asking(tmp_path):
+    """One that lies beside an unfinished experiment may be another's."""
+    start_half(tmp_path, "goal")
+    (tmp_path / TABLE).write_bytes(b"years of work")
+    with pytest.raises(ValueError, match=f"{TABLE} is there, .* move one of them away"):
+        start(tmp_path, "goal")
+
+    assert (tmp_path / TABLE).read_bytes() == b"years of work"
+
+
+def test_where_nothing_was_done_another_experiment_may_begin(tmp_path):
+    """Who stopped a command that asked for too much gives a smaller one."""
+    with claim(tmp_path, parameters(plan("goal")), plan("goal").shape):
+        pass
+
+    np.testing.assert_array_equal(start(tmp_path, "cost").goals, TABLES["cost"][1])
 
 
 # A share of what happens; in the night: DISTURBANCES=200 pytest tests/experiments
