@@ -1,7 +1,7 @@
 """The built book and a browser without a network, for the tests that need them."""
 
 import pytest
-from support import FLAGS, HTML, Visit, unavailable
+from support import FLAGS, HTML, Tabs, unavailable
 
 from abstransfer.cli.doctor import check_browser
 
@@ -30,19 +30,24 @@ def chromium():
         browser.close()
 
 
+@pytest.fixture(scope="session")
+def all_tabs(chromium):
+    """The tabs of the browser."""
+    return Tabs(chromium)
+
+
 @pytest.fixture
-def visit(html, chromium):
-    """Open a page of the book: ``visit(width=400, color_scheme="dark")``."""
-    contexts = []
+def tabs(all_tabs):
+    """What lends a test its tabs: ``tabs.lend(folder, width=400)``."""
+    yield all_tabs
+    all_tabs.take_back()
+
+
+@pytest.fixture
+def visit(html, tabs):
+    """Open a tab for the book: ``visit(width=400, color_scheme="dark")``."""
 
     def new(width=1440, color_scheme="light"):
-        contexts.append(
-            chromium.new_context(
-                viewport={"width": width, "height": 900}, color_scheme=color_scheme
-            )
-        )
-        return Visit(contexts[-1], html)
+        return tabs.lend(html, width, color_scheme=color_scheme)
 
-    yield new
-    for context in contexts:
-        context.close()
+    return new

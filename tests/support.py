@@ -1,6 +1,7 @@
 """What tests of many rooms use: folders, pages, a tab that reaches files only."""
 
 import os
+import re
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).parents[1]
+ELSEWHERE = re.compile("^(?!file:)")  # addresses that are no files
 HTML = ROOT / "build" / "_build" / "html"
 FLAGS = (
     "--no-sandbox",
@@ -50,10 +52,10 @@ class NoExecutor(Executor):
 class Visit:
     """A browser tab that reaches files only, and notes what goes wrong."""
 
-    def __init__(self, context, folder):
-        self.folder = folder
+    def __init__(self, context):
+        self.folder = None  # where its pages are
         self.problems = []  # requests that left the machine, errors of scripts
-        context.route(lambda url: not url.startswith("file:"), self._refuse)
+        context.route(ELSEWHERE, self._refuse)
         self.page = context.new_page()
         self.page.on("pageerror", lambda error: self.problems.append(str(error)))
         self.page.on("console", self._note)
@@ -69,3 +71,45 @@ class Visit:
     def _note(self, message):
         if message.type == "error":
             self.problems.append(message.text)
+
+
+class Tabs:
+    """
+    Tabs of one browser, lent to test after test.
+
+    A page in a new tab takes three times the processor time of one in a tab that is
+    there.  Tabs of other looks (width, theme, motion, touch) are other tabs.
+    """
+
+    def __init__(self, browser):
+        self.browser = browser
+        self.idle = {}  # by their looks
+        self.lent = []
+
+    def lend(self, folder, width=1440, **looks):
+        """Return a tab that no other test has, for the pages of a folder."""
+        looks["viewport"] = {"width": width, "height": 900}
+        kept = self.idle.setdefault(repr(sorted(looks.items())), [])
+        visit = kept.pop() if kept else Visit(self.browser.new_context(**looks))
+        visit.folder, visit.problems = folder, []
+        self.lent.append((visit, looks["viewport"], kept))
+        return visit
+
+    def take_back(self):
+        """End what runs in the tabs that are lent, and forget what they stored."""
+        while self.lent:
+            visit, viewport, kept = self.lent.pop()
+            if self._is_as_new(visit.page, viewport):
+                kept.append(visit)
+            else:
+                visit.page.context.close()
+
+    @staticmethod
+    def _is_as_new(page, viewport):
+        if page.is_closed() or page.viewport_size != viewport:
+            return False
+        if not page.url.startswith("file:"):  # what it stored is out of reach
+            return False
+        page.evaluate("sessionStorage.clear()")
+        page.goto("about:blank")
+        return not page.workers  # of their end a tab hears later

@@ -42,7 +42,9 @@ def drawn(page):
 @pytest.fixture(scope="module")
 def tab(html, chromium):
     context = chromium.new_context(viewport=WIDE, color_scheme="light")
-    yield Visit(context, html)
+    visit = Visit(context)
+    visit.folder = html
+    yield visit
     context.close()
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
-from support import ROOT, Visit
+from support import ROOT
 
 from abstransfer import scenes
 
@@ -84,18 +84,13 @@ def scene_pages(tmp_path_factory):
 
 
 @pytest.fixture
-def at_scenes(scene_pages, chromium):
+def at_scenes(scene_pages, tabs):
     """Open a page: ``at_scenes("race", query="#race.t=4", color_scheme="dark")``."""
-    contexts = []
 
-    def open_page(name="microscope", query="", width=1440, **options):
-        viewport = {"width": width, "height": 900}
-        contexts.append(chromium.new_context(viewport=viewport, **options))
-        tab = Visit(contexts[-1], scene_pages)
+    def open_page(name="microscope", query="", **looks):
+        tab = tabs.lend(scene_pages, **looks)
         tab.open(name, query)
         tab.page.wait_for_selector(".ab-live")
         return tab
 
-    yield open_page
-    for context in contexts:
-        context.close()
+    return open_page

@@ -6,7 +6,6 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from support import Visit
 
 from abstransfer.scenes import KINDS, bundle
 from abstransfer.scenes import files as front
@@ -187,18 +186,15 @@ def probe():
 
 
 @pytest.fixture
-def open_scene(chromium, tmp_path):
+def open_scene(tabs, tmp_path):
     """
     Open a page with a scene: ``open_scene(widget, width=400, query="#...")``.
 
     ``first`` is a script that runs before the scene's.
     """
-    contexts = []
 
-    def open_page(widget, query="", width=1440, first="", **options):
-        viewport = {"width": width, "height": 900}
-        contexts.append(chromium.new_context(viewport=viewport, **options))
-        visit = Visit(contexts[-1], tmp_path)
+    def open_page(widget, query="", first="", **looks):
+        visit = tabs.lend(tmp_path, **looks)
         body = widget if isinstance(widget, str) else widget.html()
         html = PAGE.format(
             style=front.style(),
@@ -210,9 +206,7 @@ def open_scene(chromium, tmp_path):
         visit.page.wait_for_selector(".ab-live")
         return SceneTab(visit).settle()
 
-    yield open_page
-    for context in contexts:
-        context.close()
+    return open_page
 
 
 def bare(kind, **options):

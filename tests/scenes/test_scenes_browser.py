@@ -373,6 +373,7 @@ def test_the_still_picture_is_for_print_and_without_script(at_scenes):
     tab.page.emulate_media(media="print")
     assert still.locator("svg:visible").count() == 3
     assert tab.page.locator(".ab-scene:visible").count() == 0
+    tab.page.emulate_media(media="null")
 
     page = tab.page.context.browser.new_page(java_script_enabled=False)
     page.goto(tab.page.url)
