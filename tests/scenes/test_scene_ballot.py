@@ -14,7 +14,7 @@ from abstransfer.abstraction import LABELS
 from abstransfer.driving import PAPER
 from abstransfer.navigation import navigation_tasks
 from abstransfer.scenes import Ballot
-from abstransfer.scenes.ballot.widget import PAGES, WINNER
+from abstransfer.scenes.ballot.widget import ADVICE, WINNER
 from abstransfer.scenes.parts.betas import BETAS
 
 SMALL = maps.read_map("source")
@@ -56,7 +56,7 @@ def assert_box(tab, scene):
     possible = navigation_tasks(scene.source).possible[scene.z]
     wanted = [scene.votes[a] for a in np.flatnonzero(possible)]
     assert [*votes.values()] == pytest.approx(wanted, abs=1e-4)
-    for column, beta in enumerate([scene.beta, *PAGES.values()], 2):
+    for column, beta in enumerate([scene.beta, *ADVICE.values()], 2):
         page = Ballot(source=scene.source, z=scene.z, beta=beta).advice[scene.z]
         found = [number(line[column]) for line in actions]
         assert found == pytest.approx(page[possible], abs=1e-6)
@@ -90,7 +90,7 @@ def test_what_advice_is_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
         for name, where in zip(WHOLE, ("source", "target"), strict=True):
             now, *others = map(number, rows[name][1:])
             assert now == pytest.approx(scene.driving(where, beta), abs=1e-7)
-            wanted = [scene.driving(where, at) for at in PAGES.values()]
+            wanted = [scene.driving(where, at) for at in ADVICE.values()]
             assert others == pytest.approx(wanted, abs=1e-7)
         assert f"{scene.driving('source', beta):.2f}".replace("-", "−") in (
             ballot.root.inner_text()
@@ -127,7 +127,7 @@ def test_a_bet_comes_first_and_the_closing_names_the_best_advice(ballot):
         values = [scene.driving(where, beta) for beta in places]
         best = f"β = {places[int(np.argmax(values))]:.2f} with {max(values):.1f} a cell"
         assert best.replace("-", "−") in ballot.closing
-        for name, beta in PAGES.items():
+        for name, beta in ADVICE.items():
             value = f"{name} {scene.driving(where, beta):.1f}"
             assert value.replace("-", "−") in ballot.closing
 
@@ -286,7 +286,7 @@ def test_it_is_accessible(show, color_scheme):
 def test_infinity_has_a_place_on_the_slider():
     scene = Ballot(beta=np.inf)
     assert scene.get_state()["beta"] == WINNER
-    assert scene.page.max(axis=1)[19] == 1
+    assert scene.advice.max(axis=1)[19] == 1
     scene.set_state({"beta": 0.5})  # as the browser does
     assert scene.beta == 0.5
     scene.set_state({"beta": WINNER})
