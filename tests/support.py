@@ -32,7 +32,9 @@ def toc_pages():
         for item in entry if isinstance(entry, list) else ():
             yield from files(item)
 
-    return list(files(yaml.safe_load((ROOT / "book" / "_toc.yml").read_text())))
+    return list(
+        files(yaml.safe_load((ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")))
+    )
 
 
 def unavailable(what):

@@ -64,7 +64,7 @@ def loaded_after(code):
     done = subprocess.run(
         [sys.executable, "-c", program],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         check=True,
         cwd=PACKAGE.parent,
     )

@@ -49,12 +49,14 @@ def test_the_wheel_brings_its_maps_and_its_scenes(installed):
         env={**os.environ, "PYTHONPATH": str(installed), "PATH": ""},
         check=True,
         capture_output=True,
-        text=True,
+        encoding="utf-8",
     )
 
     told = json.loads(done.stdout)
     assert told["data"] == str(installed / "abstransfer" / "data")
-    assert told["map"] == (ROOT / "data" / "maps" / "source.txt").read_text()
+    assert told["map"] == (ROOT / "data" / "maps" / "source.txt").read_text(
+        encoding="utf-8"
+    )
     assert told["scripts"] == str(installed / "abstransfer" / "scenes")
     assert told["fresh"]
     assert told["esm"] == Race().get_state()["_esm"]

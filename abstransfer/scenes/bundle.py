@@ -140,7 +140,7 @@ def _bundle(paths: list[Path], folder: Path) -> None:
     done = subprocess.run(
         [deno, "bundle", "--quiet", *form, *out, *names],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         env=environment(),
     )
     if done.returncode:

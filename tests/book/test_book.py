@@ -81,7 +81,7 @@ def test_no_page_loads_anything_from_elsewhere(html):
 
 
 def test_no_style_loads_anything_from_elsewhere(html):
-    sheets = {path: path.read_text() for path in html.glob("**/*.css")}
+    sheets = {path: path.read_text(encoding="utf-8") for path in html.glob("**/*.css")}
     for path in html.glob("**/*.html"):
         inline = [tag.get_text() for tag in soup(path).find_all("style")]
         sheets[path] = "\n".join(inline)
@@ -129,7 +129,10 @@ def test_every_page_in_the_folder_is_in_the_table_of_contents():
 
 
 def test_every_public_module_is_in_the_reference_once():
-    reference = [path.read_text() for path in sorted((ROOT / "book").glob("api*.md"))]
+    reference = [
+        path.read_text(encoding="utf-8")
+        for path in sorted((ROOT / "book").glob("api*.md"))
+    ]
     listed = re.findall(r"automodule:: abstransfer\.([\w.]+)", "".join(reference))
     package = ROOT / "abstransfer"
     public = {

@@ -40,10 +40,10 @@ def printed():
     found = {}
     for path in (ROOT / "book").iterdir():
         if path.suffix == ".ipynb":
-            cells = json.loads(path.read_text())["cells"]
+            cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
             text = "\n".join("".join(cell["source"]) for cell in cells)
         elif path.suffix == ".md":
-            text = path.read_text()
+            text = path.read_text(encoding="utf-8")
         else:
             continue
         found |= dict.fromkeys(LABEL.findall(text), path.stem)

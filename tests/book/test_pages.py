@@ -97,7 +97,7 @@ def test_the_spelling_is_right(tmp_path):
     own += [*ROOT.glob("*.md"), *(ROOT / "scripts").glob("*.py")]
     words = ROOT / "tests" / "words.txt"
     command = [sys.executable, "-m", "codespell_lib", "-I", words, tmp_path, *own]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, encoding="utf-8")
 
     assert done.returncode == 0, done.stdout + done.stderr
 

@@ -60,7 +60,7 @@ def test_two_pages_are_printed_with_an_outline_and_page_numbers(html, tmp_path):
     out = tmp_path / "two.pdf"
     # A process of its own: the browser of the tests is open in this one.
     command = [sys.executable, pdf.__file__, "--html", html, "--out", out]
-    told = subprocess.check_output([*command, "00_race", "notation"], text=True)
+    told = subprocess.check_output([*command, "00_race", "notation"], encoding="utf-8")
 
     content = out.read_bytes()
     assert "wider than the paper" not in told
@@ -99,12 +99,12 @@ def test_the_first_page_links_to_the_pdf_once_it_is_there(tmp_path):
     assert "`abstransfer.pdf`" in (ROOT / "book" / "intro.md").read_text("utf-8")
     page = tmp_path / "intro.html"
     words = '<code class="docutils"><span class="pre">abstransfer.pdf</span></code>'
-    page.write_text(f"<p>It is {words}.</p>")
+    page.write_text(f"<p>It is {words}.</p>", encoding="utf-8")
     for _ in range(2):
         pdf.link_first_page(tmp_path)
 
         linked = f'<p>It is <a href="abstransfer.pdf">{words}</a>.</p>'
-        assert page.read_text() == linked
+        assert page.read_text(encoding="utf-8") == linked
 
 
 def test_without_a_browser_it_says_how_to_get_one(monkeypatch, capsys):

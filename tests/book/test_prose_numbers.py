@@ -43,7 +43,7 @@ def page(tmp_path):
             },
         ]
         path = tmp_path / "page.ipynb"
-        path.write_text(json.dumps({"cells": cells}))
+        path.write_text(json.dumps({"cells": cells}), encoding="utf-8")
         return [orphan.number for orphan in orphans(path)]
 
     return found
@@ -112,7 +112,7 @@ def test_the_numbers_of_a_lecturers_box_but_for_its_minutes_are_looked_at():
 
 def test_a_wrong_number_on_a_real_page_is_found(tmp_path):
     path = ROOT / "book" / "07_driving_test.ipynb"
-    page = json.loads(path.read_text())
+    page = json.loads(path.read_text(encoding="utf-8"))
     changed = copy.deepcopy(page)
     for cell in changed["cells"]:
         cell["source"] = [
@@ -122,7 +122,7 @@ def test_a_wrong_number_on_a_real_page_is_found(tmp_path):
     assert changed != page
 
     other = tmp_path / path.name
-    other.write_text(json.dumps(changed))
+    other.write_text(json.dumps(changed), encoding="utf-8")
     assert [orphan.number for orphan in orphans(other)] == ["59"]
 
 

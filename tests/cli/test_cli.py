@@ -64,7 +64,7 @@ def test_bad_input_ends_with_a_message_and_code_2(arguments, message, capsys):
 
 def test_a_bad_map_is_refused_with_file_row_and_column(tmp_path, capsys):
     path = tmp_path / "hole.txt"
-    path.write_text("+---+\n|  * \n+---+\n")
+    path.write_text("+---+\n|  * \n+---+\n", encoding="utf-8")
 
     code = main(["table1", "--source", str(path)])
 
@@ -75,7 +75,7 @@ def test_a_bad_map_is_refused_with_file_row_and_column(tmp_path, capsys):
 
 def test_an_unknown_command_exits_with_2_and_no_traceback():
     run = [sys.executable, "-m", "abstransfer", "tabel1"]
-    done = subprocess.run(run, capture_output=True, text=True)
+    done = subprocess.run(run, capture_output=True, encoding="utf-8")
 
     assert done.returncode == 2
     assert "invalid choice: 'tabel1'" in done.stderr
@@ -84,7 +84,7 @@ def test_an_unknown_command_exits_with_2_and_no_traceback():
 
 def test_output_cut_off_by_a_closed_pipe_is_no_error():
     run = f"{sys.executable} -m abstransfer table1 --source-only | head -n 1"
-    done = subprocess.run(["sh", "-c", run], capture_output=True, text=True)
+    done = subprocess.run(["sh", "-c", run], capture_output=True, encoding="utf-8")
 
     assert done.returncode == 0
     assert done.stderr == ""

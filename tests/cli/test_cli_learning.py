@@ -30,7 +30,7 @@ def start(*arguments):
         [sys.executable, "-m", "abstransfer", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
         start_new_session=True,
     )
 
@@ -179,7 +179,7 @@ def test_bad_input_ends_with_a_message_and_code_2(
     arguments, message, capsys, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "map.txt").write_text("no folder")
+    (tmp_path / "map.txt").write_text("no folder", encoding="utf-8")
     code, out, err = run(capsys, *arguments)
 
     assert (code, out) == (2, "")
@@ -281,7 +281,7 @@ def test_a_dead_worker_ends_with_a_message(tmp_path):
 def workers(pid):
     """Return the worker processes that a process, or one of its threads, started."""
     listed = [
-        Path(f"/proc/{pid}/task/{thread}/children").read_text().split()
+        Path(f"/proc/{pid}/task/{thread}/children").read_text(encoding="utf-8").split()
         for thread in os.listdir(f"/proc/{pid}/task")
     ]
     return [
@@ -332,7 +332,10 @@ def test_a_worker_needs_less_than_500_mb():
         "print(open('/proc/self/status').read())\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+        [sys.executable, "-c", script],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
     )
     peak = next(line for line in done.stdout.splitlines() if line.startswith("VmHWM"))
 
@@ -367,7 +370,7 @@ def test_closed_streams_are_no_error_and_nothing_is_written_into_results(tmp_pat
         f"{command} learn --map source --steps 1000 >&- 2>&-",
         f"{command} experiment {small} {tmp_path / 'out'} >&- 2>&-",
     ):
-        done = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
+        done = subprocess.run(["sh", "-c", line], capture_output=True, encoding="utf-8")
         assert (done.returncode, done.stderr) == (0, ""), line
     assert load_results(tmp_path / "out").goals.shape == (9, 1, 50)
 

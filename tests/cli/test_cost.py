@@ -28,7 +28,7 @@ def test_a_long_table_says_states_time_and_memory(capsys):
 def test_a_source_that_cannot_be_held_is_refused(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(cost, "memory", lambda: 200_000_000)
     path = tmp_path / "large.txt"
-    path.write_text(str(tile_map(read_map("source"), 2, 2)))
+    path.write_text(str(tile_map(read_map("source"), 2, 2)), encoding="utf-8")
 
     assert main(["table1", "--source", str(path)]) == 2
     assert "23,760 states of the source" in capsys.readouterr().err

@@ -79,7 +79,8 @@ def test_without_the_package_installed_it_says_how_to_install(monkeypatch):
 
 
 def test_the_python_asked_for_is_the_one_of_the_package():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    settings = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    project = tomllib.loads(settings)["project"]
 
     assert project["requires-python"] == f">={doctor.PYTHON}"
 
@@ -92,7 +93,7 @@ def test_it_answers_where_nothing_else_is_installed():
     )
     # -S: without the folder of what was installed, -I: without this one.
     command = [sys.executable, "-I", "-S", "-c", look, doctor.__file__]
-    told = dict(json.loads(subprocess.check_output(command, text=True)))
+    told = dict(json.loads(subprocess.check_output(command, encoding="utf-8")))
 
     assert told["python"]
     assert not told["abstransfer"]

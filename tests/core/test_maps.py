@@ -53,7 +53,9 @@ def edited(row, column, char, text=BUILDING):
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_printing_a_shipped_map_gives_its_file(name):
-    assert f"{read_map(name)}\n" == (DATA / "maps" / f"{name}.txt").read_text()
+    path = DATA / "maps" / f"{name}.txt"
+
+    assert f"{read_map(name)}\n" == path.read_text(encoding="utf-8")
 
 
 def test_every_file_in_the_folder_of_maps_is_tested():
@@ -115,7 +117,7 @@ def test_a_file_of_a_windows_editor_is_read(tmp_path):
 
 
 def test_a_map_is_read_from_a_path_given_as_text(tmp_path):
-    (tmp_path / "mine.txt").write_text(SMALLEST)
+    (tmp_path / "mine.txt").write_text(SMALLEST, encoding="utf-8")
 
     assert str(read_map(str(tmp_path / "mine.txt"))) == SMALLEST
 
@@ -556,7 +558,7 @@ def test_no_tile_at_all_is_refused(source, rows, columns):
 
 def test_a_map_put_into_the_folder_is_known_by_its_name(tmp_path, monkeypatch):
     (tmp_path / "maps").mkdir()
-    (tmp_path / "maps" / "target_paper.txt").write_text(SMALLEST)
+    (tmp_path / "maps" / "target_paper.txt").write_text(SMALLEST, encoding="utf-8")
     monkeypatch.setattr("abstransfer.maps.DATA", tmp_path)
 
     assert str(read_map("target_paper")) == str(parse_map(SMALLEST))

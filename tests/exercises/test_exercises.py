@@ -232,7 +232,7 @@ def test_the_list_of_exercises_names_them_all():
     done = subprocess.run(
         [sys.executable, "-m", "abstransfer.exercises"],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         check=True,
         cwd=ROOT,
     )

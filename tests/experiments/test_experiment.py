@@ -180,7 +180,7 @@ def test_the_table_is_tidy_and_stable_to_the_byte(tmp_path, expected):
 
 def test_the_record_says_what_made_it_and_nothing_of_the_machine(tmp_path):
     run(out=tmp_path / "a")
-    text = (tmp_path / "a" / "experiment.json").read_text()
+    text = (tmp_path / "a" / "experiment.json").read_text(encoding="utf-8")
     record = json.loads(text)
 
     assert record["parameters"]["reading"]["target"]["name"] == "source"
@@ -338,7 +338,7 @@ def test_a_table_that_does_not_fit_its_record_is_refused(tmp_path, expected):
     ],
 )
 def test_a_record_that_is_none_is_refused_by_name(tmp_path, text, complaint):
-    (tmp_path / "experiment.json").write_text(text)
+    (tmp_path / "experiment.json").write_text(text, encoding="utf-8")
     for read in (load_results, lambda folder: run(out=folder)):
         with pytest.raises(ValueError, match=f"experiment.json: .*{complaint}"):
             read(tmp_path)

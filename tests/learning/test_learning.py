@@ -513,7 +513,7 @@ def test_the_first_call_says_that_it_compiles(tmp_path):
             [sys.executable, "-c", code],
             env={"NUMBA_CACHE_DIR": str(tmp_path)},
             capture_output=True,
-            text=True,
+            encoding="utf-8",
             check=True,
         ).stderr
 

@@ -366,7 +366,7 @@ def digest(variables, phases=tuple(PHASES), traces=(0, 1500), n_runs=4):
         env={**os.environ, **variables},
         cwd=ROOT,
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         check=True,
     ).stdout.split()
 
@@ -410,7 +410,7 @@ def test_no_value_makes_a_loop_leave_its_row():
         env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
         cwd=ROOT,
         capture_output=True,
-        text=True,
+        encoding="utf-8",
     )
 
     assert (done.stdout, done.stderr) == ("whole\n", "")

@@ -70,7 +70,7 @@ def made(results, tmp_path_factory):
 
 
 def read(path):
-    with open(path, newline="") as file:
+    with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
@@ -131,7 +131,7 @@ def test_the_measures_of_transfer_see_the_jump(made):
 
 def test_the_ledger_has_every_claim_under_every_convention(made):
     rows = read(made / "ledger.csv")
-    text = (made / "ledger.md").read_text()
+    text = (made / "ledger.md").read_text(encoding="utf-8")
 
     assert {row["experiment"] for row in rows} == {"goal, target", "cost, target"}
     assert {row["claim"] for row in rows} == {claim.key for claim in CLAIMS}

@@ -50,13 +50,13 @@ def build(folder: Path, html: Path) -> None:
     first, *rest = PAGES
     chapters = "".join(f"\n- file: {name}" for name in rest)
     toc = f"format: jb-book\nroot: {first}" + (f"\nchapters:{chapters}" if rest else "")
-    (book / "_toc.yml").write_text(toc + "\n")
+    (book / "_toc.yml").write_text(toc + "\n", encoding="utf-8")
     paths = ["--config", ROOT / "_config.yml", "--path-output", html.parents[1]]
     tool = Path(sys.executable).with_name("jupyter-book")
     run = subprocess.run(
         [tool, "build", book, *paths, "-W", "-n", "--keep-going"],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         timeout=120,
     )
     assert run.returncode == 0, run.stdout[-3000:] + run.stderr[-3000:]

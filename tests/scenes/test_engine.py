@@ -60,7 +60,7 @@ def test_the_front_end_without_a_page(path, tmp_path):
     done = subprocess.run(
         [*test, path, "--", said],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         timeout=300,
         env=bundle.environment(),
     )

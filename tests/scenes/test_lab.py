@@ -61,11 +61,12 @@ def lab(tmp_path_factory):
     settings = folder / "jupyter_config_dir/lab/user-settings/@jupyterlab"
     settings /= "notebook-extension/tracker.jupyterlab-settings"
     settings.parent.mkdir(parents=True)
-    settings.write_text('{"windowingMode": "none"}')  # cells out of view exist too
+    seen = '{"windowingMode": "none"}'  # cells out of view exist too
+    settings.write_text(seen, encoding="utf-8")
     tool = Path(sys.executable).with_name("jupyter-lab")
     command = [tool, *(f"--{name}={value}" for name, value in options.items())]
     address = f"http://127.0.0.1:{port}"
-    with (folder / "log").open("w") as log:
+    with (folder / "log").open("w", encoding="utf-8") as log:
         server = subprocess.Popen(command, env=env, stdout=log, stderr=log)
         try:
             wait_for(f"{address}/api", server, folder / "log")
@@ -78,7 +79,8 @@ def lab(tmp_path_factory):
 def wait_for(url, server, log):
     for _ in range(300):
         if server.poll() is not None:
-            unavailable(f"JupyterLab did not start: {log.read_text()[-500:]}")
+            said = log.read_text(encoding="utf-8")[-500:]
+            unavailable(f"JupyterLab did not start: {said}")
         try:
             urllib.request.urlopen(url, timeout=1)
             return

@@ -44,7 +44,8 @@ def knobs(scene):
 
 
 def test_the_problem_is_the_one_that_page_6_defines():
-    cells = json.loads((ROOT / "book" / "06_deducing.ipynb").read_text())["cells"]
+    page_6 = (ROOT / "book" / "06_deducing.ipynb").read_text(encoding="utf-8")
+    cells = json.loads(page_6)["cells"]
     code = next("".join(c["source"]) for c in cells if "hall = at.MDP" in str(c))
     here = {}
     exec("import numpy as np\nimport abstransfer as at\n" + code, here)

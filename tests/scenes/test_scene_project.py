@@ -230,7 +230,9 @@ def test_it_is_accessible_and_fits(open_scene, width, color):
     assert tab.violations() == []
     with tab.page.expect_download() as download:
         tab.root.get_by_role("button", name="Save as a file").last.click()
-    assert verify(download.value.path().read_text())[0].setup == Setup(SCHOOL, runs=1)
+    assert verify(download.value.path().read_text(encoding="utf-8"))[0].setup == Setup(
+        SCHOOL, runs=1
+    )
 
 
 def test_an_address_a_reset_and_how_much_a_move_paints(open_scene):

@@ -341,7 +341,7 @@ def test_text_comes_in_and_goes_out(studio):
     assert "22 rooms" in studio.root.inner_text()
     with studio.page.expect_download() as download:
         studio.click("Save as a file")
-    assert download.value.path().read_text().strip() == str(building)
+    assert download.value.path().read_text(encoding="utf-8").strip() == str(building)
     studio.click("Copy")
     assert studio.problems == []
 

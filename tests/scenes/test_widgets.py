@@ -96,21 +96,23 @@ def test_a_changed_source_is_bundled_anew_once(monkeypatch, tmp_path):
     monkeypatch.setattr(bundle, "WORKER", tmp_path / "worker.js")
     (tmp_path / "one").mkdir()
     source = tmp_path / "one" / "one.js"
-    source.write_text("console.log(1 + python.n);")
-    (tmp_path / "worker.js").write_text("self.onmessage = () => {};")
+    source.write_text("console.log(1 + python.n);", encoding="utf-8")
+    (tmp_path / "worker.js").write_text("self.onmessage = () => {};", encoding="utf-8")
 
     assert bundle.scenes() == ["one"]
     assert bundle.build()
     assert not bundle.build()
-    source.write_text("console.log(2 + python.n);")
+    source.write_text("console.log(2 + python.n);", encoding="utf-8")
     assert not bundle.is_fresh()
     assert bundle.build()
-    assert "2+python.n" in (tmp_path / "_bundles" / "one.js").read_text()
+    assert "2+python.n" in (tmp_path / "_bundles" / "one.js").read_text(
+        encoding="utf-8"
+    )
 
 
 def test_a_script_that_cannot_be_bundled_is_named(tmp_path):
     wrong = tmp_path / "wrong.js"
-    wrong.write_text("import { x } from './nowhere.js';")
+    wrong.write_text("import { x } from './nowhere.js';", encoding="utf-8")
 
     with pytest.raises(bundle.BundleError, match="nowhere.js"):
         bundle.bundle_one(wrong)
@@ -121,7 +123,7 @@ def test_every_colour_that_is_used_is_defined():
     for path in [*bundle.sources(), *bundle.FOLDER.glob("**/*.css")]:
         used |= {
             part.split(")")[0].split(",")[0]
-            for part in path.read_text().split("var(")[1:]
+            for part in path.read_text(encoding="utf-8").split("var(")[1:]
         }
     style = front.style()
     own = {'--ab-arm-${builder in palette.arms ? builder : "none"}'}
