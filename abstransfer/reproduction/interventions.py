@@ -2,7 +2,7 @@
 Which operations on notes page 10 compares, and the experiment that runs them.
 
 Every run: five robots are advised for tau steps, with the same luck.  Then one
-goes on alone for the rest of a life from each of the tables that the operations
+goes on alone for the rest of a run from each of the tables that the operations
 make of what they left, all with the same new luck.  What is counted is the goals
 after tau.
 """
@@ -150,7 +150,7 @@ class Case(NamedTuple):
     guides: Mapping[str, np.ndarray]  # advice (Z, A) of the robots
     operations: tuple[str, ...]
     tau: int
-    n_steps: int  # of a whole life
+    n_steps: int  # of a whole run
     seed: int
     run: int
 

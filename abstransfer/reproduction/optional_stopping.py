@@ -1,8 +1,8 @@
 """
-When would you sign?  Verdicts after each life, in several orders of the lives.
+When would you sign?  Verdicts after each run, in several orders of the runs.
 
-Who looks after every life and stops as soon as an interval leaves 0 looks often.
-Claims are the first five, and "same": each arm against itself, its lives shuffled
+Who looks after every run and stops as soon as an interval leaves 0 looks often.
+Claims are the first five, and "same": each arm against itself, its runs shuffled
 twice, where nothing is to be found.  Page 9 of the book teaches this module.
 """
 
@@ -25,19 +25,19 @@ KEYS = (*(claim.key for claim in CLAIMS[:5]), SAME)
 
 
 class Stops(NamedTuple):
-    """What a reader who looks after each life does, in all orders."""
+    """What a reader who looks after each run does, in all orders."""
 
-    verdict: str  # of all lives
-    settled: int  # lives from which on no verdict changes, in any order
-    stops: tuple[int | None, ...]  # lives after which each track is signed, if it is
-    wrong: int  # how many of them are signed against all lives
+    verdict: str  # of all runs
+    settled: int  # runs from which on no verdict changes, in any order
+    stops: tuple[int | None, ...]  # runs after which each track is signed, if it is
+    wrong: int  # how many of them are signed against all runs
 
 
 def comparisons(results: Results, key: str) -> tuple[Finding, ...]:
     """
     Return what a claim rests on, (K,); `key` is one of `KEYS`.
 
-    An effect that no life changes is measured, gains over lives are not yet.
+    An effect that no run changes is measured, gains over runs are not yet.
     """
     if key not in KEYS:
         raise ValueError(f"key must be one of {', '.join(KEYS)}, got {key!r}")
@@ -51,7 +51,7 @@ def comparisons(results: Results, key: str) -> tuple[Finding, ...]:
 
 def orders(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
     """
-    Return the orders of the lives and of partners for "same", (5, N) each.
+    Return the orders of the runs and of partners for "same", (5, N) each.
 
     Order 0 is as run; order k is shuffled with seed [k, 0], a partner with [k, 1].
 
@@ -59,16 +59,16 @@ def orders(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
     array([0, 1, 2, 3])
     """
 
-    lives, partners = (
+    order, partners = (
         [np.random.default_rng([k, j]).permutation(n_runs) for k in range(N_ORDERS)]
         for j in (0, 1)
     )
-    return np.stack([np.arange(n_runs), *lives[1:]]), np.stack(partners)
+    return np.stack([np.arange(n_runs), *order[1:]]), np.stack(partners)
 
 
 def running_gains(a: np.ndarray, b: np.ndarray) -> Interval:
     """
-    Return by which share `a` exceeds `b`, both (N, K), after 2..N lives, (N - 1, K).
+    Return by which share `a` exceeds `b`, both (N, K), after 2..N runs, (N - 1, K).
 
     Row n - 2 is what ``relative_gain(a[:n], b[:n], rng=0)`` gives, column by column.
 
@@ -87,7 +87,7 @@ def running_gains(a: np.ndarray, b: np.ndarray) -> Interval:
 
 @lru_cache(maxsize=64)
 def _times(n: int) -> np.ndarray:
-    """Return how often each life is in each resample of n, (RESAMPLES, n)."""
+    """Return how often each run is in each resample of n, (RESAMPLES, n)."""
     drawn = np.random.default_rng(0).integers(0, n, (RESAMPLES, n))
     drawn += n * np.arange(RESAMPLES)[:, None]
     times = np.bincount(drawn.ravel(), minlength=n * RESAMPLES)
@@ -95,13 +95,13 @@ def _times(n: int) -> np.ndarray:
 
 
 def tracks(results: Results, key: str) -> list[list[str]]:
-    """Return verdicts after 2..N lives by order; for "same" by order and arm."""
+    """Return verdicts after 2..N runs by order; for "same" by order and arm."""
     compared = comparisons(results, key)
     pairs = [finding for finding in compared if finding.kind == "goals"]
     exact = [finding for finding in compared if finding.kind != "goals"]
-    lives, partners = orders(results.goals.shape[1])
+    order, partners = orders(results.goals.shape[1])
     found = []
-    for first, second in zip(lives, partners if key == SAME else lives, strict=True):
+    for first, second in zip(order, partners if key == SAME else order, strict=True):
         a = np.stack([results.totals(pair.a)[first] for pair in pairs], axis=1)
         b = np.stack([results.totals(pair.b)[second] for pair in pairs], axis=1)
         ends = np.stack(running_gains(a, b), axis=-1)  # (N - 1, K, 3)
@@ -118,7 +118,7 @@ def tracks(results: Results, key: str) -> list[list[str]]:
 
 def read_along(found: list[list[str]]) -> Stops:
     """
-    Return what a reader does who looks from `FIRST_LOOK` lives on.
+    Return what a reader does who looks from `FIRST_LOOK` runs on.
 
     >>> late, early = ["undecided"] * 6 + ["holds"], ["undecided"] * 3 + ["holds"] * 4
     >>> read_along([late, early])

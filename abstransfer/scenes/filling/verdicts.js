@@ -1,4 +1,4 @@
-// What the first lives of arms say of a claim, as Python's `claims` does.
+// What the first runs of arms say of a claim, as Python's `claims` does.
 
 import { interval } from "../parts/bootstrap.js";
 

@@ -116,7 +116,7 @@ def _data(name: str) -> dict:
 
 
 def _compared(finding: Finding) -> list:
-    """Return text, arms, threshold, side, role, and an effect no life changes."""
+    """Return text, arms, threshold, side, role, and an effect no run changes."""
     pair, fixed = (finding.a, finding.b), None
     if finding.kind != "goals":
         pair, fixed = ("", ""), finding.effect.estimate
