@@ -9,8 +9,8 @@ What it does differently, each measured (benchmarks/NOTES.md):
 - Nothing is decided by a branch except the end of an episode: what would be
   guessed wrong half of the time is looked up instead.
 - Three independent runs take turns, so that one computes while another waits
-  for memory.  A run's result does not depend on its company.
-- Words are drawn in blocks, and the tables are small (``_packing``).
+  for memory: all move, then all learn.  None depends on its company.
+- Words are drawn in blocks, and the tables are small (``_tables``).
 
 `guide` and `tau` may be None.  The compiler then leaves out what asks for them:
 no guide: epsilon-greedy; a guide alone: it decides; guide and tau: it fades.
@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._rng import STARTS, STEPS, WORD, compiled, fill, inlined, next_word
-from ._simd import MIDDLE, count_below, put, size
+from ._simd import MIDDLE, WIDTH, count_below, put
 from .loop import CUTS, GOALS
 
 BLOCK = 256  # steps whose words are drawn at once: 4 KB, stays in the nearest cache
@@ -59,8 +59,9 @@ def choose(t, s, luck, guide, tau, tables, rule, sets):
         faded = (tau - t) << 16
         explore = faded + t * explore
         mode = mode * tau
-    chosen = int(sets[(s << 1) | (mode < explore)])
-    a = int(tables.member[(chosen << 3) + ((field * size(chosen)) >> 16)])
+    chosen = int(sets[(s << 1) | (mode < explore)]) << 4
+    size = int(tables.member[chosen + WIDTH])
+    a = int(tables.member[chosen + ((field * size) >> 16)])
     if tau is not None:
         # Not a choice of two but a mask: a branch would often be guessed wrong.
         a ^= (a ^ guided(s, field, guide)) & -np.int64(mode < faded)

@@ -92,29 +92,6 @@ def _spread(builder, number):
     return _shuffle(builder, vector, [0] * WIDTH)
 
 
-def size(mask):
-    """
-    Return how many of the bits of a mask are set.
-
-    >>> size(0b10110)
-    3
-    """
-    return mask.bit_count()
-
-
-@overload(size)
-def _size(mask):
-    return lambda mask: _count_bits(mask)
-
-
-@intrinsic
-def _count_bits(typing_context, mask):
-    def generate(context, builder, signature, arguments):
-        return builder.ctpop(arguments[0])
-
-    return types.int64(types.int64), generate
-
-
 def count_below(last, start, number):
     """
     Return how many of ``last[start : start + 8]`` (int32) are below a number.

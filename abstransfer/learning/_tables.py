@@ -27,7 +27,7 @@ class Tables(NamedTuple):
     outcome: np.ndarray  # (16 rows,) int32: last word - 2^31 of 8 outcomes; s_next - s
     reward: np.ndarray  # (S,)
     start: np.ndarray  # (N,) int64
-    member: np.ndarray  # (2048,) uint8: [8 * set + i] is the i-th action of the set
+    member: np.ndarray  # (4096,) uint8: [16 set + i] is its i-th action, 8: its size
 
 
 class FastGuide(NamedTuple):
@@ -129,6 +129,9 @@ def small_type(count: int) -> type:
 
 
 def _members() -> np.ndarray:
-    """Return the actions of each set (a mask of 8 bits), those outside it last."""
-    outside = (~np.arange(256)[:, None] >> np.arange(WIDTH)) & 1
-    return np.argsort(outside, axis=1, kind="stable").astype(np.uint8).ravel()
+    """Return the actions of each set (a mask of 8 bits), and how many they are."""
+    inside = (np.arange(256)[:, None] >> np.arange(WIDTH)) & 1
+    table = np.zeros((256, 2 * WIDTH), np.uint8)
+    table[:, :WIDTH] = np.argsort(1 - inside, axis=1, kind="stable")
+    table[:, WIDTH] = inside.sum(axis=1)
+    return table.ravel()
