@@ -18,17 +18,28 @@ from multiprocessing import get_context
 import peers
 import yardstick
 
-from abstransfer import navigation_tasks, read_map, uniform_policy
+from abstransfer import navigation_tasks, parse_map, read_map, uniform_policy
 from abstransfer.learning._runs import Together, set_up
 from abstransfer.learning.settings import Settings
 
-STEPS = 5_000_000  # a round of a compiled loop; six rounds are a run of the paper
-SLOW_STEPS = 20_000  # a round of an interpreted one
+STEPS = 1_000_000  # a round of a compiled loop; thirty rounds are a run of the paper
+SLOW_STEPS = 2_000  # a round of an interpreted one
+SMALL = """
++---------+-----+
+|. . . . .d    *|
+|         |     |
+|. . . . .|     |
+|         |     |
+|. . . . .|     |
+|         |     |
+|. . . . .|     |
++---------+-----+
+"""  # 32 states: all that three runs read fits the nearest cache
 
 
-def make_settings(strategy: str, n_steps: int) -> Settings:
+def make_settings(strategy: str, n_steps: int, map_=None) -> Settings:
     """No guide, or the random policy, which guides through the whole run."""
-    mdp = navigation_tasks(read_map("target"), reward="goal").mdp
+    mdp = navigation_tasks(map_ or read_map("target"), reward="goal").mdp
     if strategy == "none":
         return Settings(mdp)
     guide = uniform_policy(mdp.allowed)
@@ -126,6 +137,8 @@ def contestants(strategy: str, n_steps: int) -> dict:
     if learn:
         found["C, straightforward"] = InC(settings, learn), STEPS
     found["abstransfer, 3 runs in turn"] = Fast(settings, 3), STEPS
+    small = make_settings(strategy, n_steps, parse_map(SMALL.strip()))
+    found["its floor: all in cache"] = Fast(small, 3), STEPS
     found["abstransfer, 1 run"] = Fast(settings, 1), STEPS
     found["readable loop, compiled"] = Plain(settings), STEPS
     found["readable loop, plain Python"] = Interpreted(settings), SLOW_STEPS
