@@ -8,7 +8,7 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["stats"],
+    submodules=["stats", "surgery"],
     submod_attrs={
         "arms": [
             "ARMS",

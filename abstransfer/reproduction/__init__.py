@@ -6,7 +6,7 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["figures"],
+    submodules=["figures", "hypotheses", "traps"],
     submod_attrs={
         "catalogue": ["BETAS", "EXPERIMENTS", "SHARES", "make_guides", "reproduce"],
         "claims": ["CLAIMS", "ledger"],

@@ -22,6 +22,7 @@ from ..experiments.stats import (
     LEVEL,
     RESAMPLES,
     Interval,
+    gain_interval,
     mean_interval,
     paired_difference,
     relative_gain,
@@ -70,6 +71,18 @@ class Finding(NamedTuple):
         """Return the finding with the effect that results show."""
         measure = KINDS[self.kind].effect
         return self._replace(effect=measure(results, self.a, self.b, rng))
+
+    def by_student(self, results: Results, level: float = LEVEL) -> Finding:
+        """
+        Return the finding with Student's interval, if it compares goals.
+
+        For few runs, of which a percentile bootstrap is too sure; and for many
+        looks, each at a level of its own.
+        """
+        if self.kind != "goals":
+            return self
+        a, b = results.totals(self.a), results.totals(self.b)
+        return self._replace(effect=gain_interval(a, b, level=level))
 
 
 class Kind(NamedTuple):

@@ -151,3 +151,20 @@ def test_arms_that_never_reach_a_goal_decide_nothing():
     entries = ledger(results._replace(goals=0 * results.goals))
 
     assert {e.verdict for e in entries} == {UNDECIDED}
+
+
+def test_students_findings_are_the_ledgers_with_intervals_that_widen_with_the_level():
+    results = experiment()
+    for entry in ledger(results)[:5]:
+        for a in entry.findings:
+            b, c = (a.by_student(results, level) for level in (0.95, 0.999))
+            assert (a.text, a.main) == (b.text, b.main)
+            assert a.effect.estimate == pytest.approx(b.effect.estimate)
+            assert c.effect.low <= b.effect.low <= b.effect.high <= c.effect.high
+
+
+def test_of_four_runs_student_decides_no_comparison():
+    results = experiment(n_runs=4)
+    third = ledger(results)[2]
+
+    assert {f.by_student(results).verdict for f in third.findings} == {UNDECIDED}
