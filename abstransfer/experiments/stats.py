@@ -91,7 +91,7 @@ def bootstrap(statistic: Callable, *samples: np.ndarray, rng) -> Interval:
     return Interval(*(x if x.ndim else float(x) for x in (estimate, low, high)))
 
 
-def t_interval(x: np.ndarray) -> Interval:
+def t_interval(x: np.ndarray, level: float = LEVEL) -> Interval:
     """
     Return the mean over runs of x (N,) or (N, B), with Student's interval.
 
@@ -115,12 +115,12 @@ def t_interval(x: np.ndarray) -> Interval:
     mean, n = x.mean(axis=0), len(x)
     half = np.full_like(mean, np.nan)
     if n >= FEWEST:
-        half = stats.t.ppf((1 + LEVEL) / 2, n - 1) * x.std(axis=0, ddof=1) / n**0.5
+        half = stats.t.ppf((1 + level) / 2, n - 1) * x.std(axis=0, ddof=1) / n**0.5
     ends = (mean, mean - half, mean + half)
     return Interval(*(float(end) if np.ndim(end) == 0 else end for end in ends))
 
 
-def gain_interval(a: np.ndarray, b: np.ndarray) -> Interval:
+def gain_interval(a: np.ndarray, b: np.ndarray, level: float = LEVEL) -> Interval:
     """
     Return mean(a) / mean(b) - 1, run i of a with run i of b, both (N,), positive.
 
@@ -137,7 +137,7 @@ def gain_interval(a: np.ndarray, b: np.ndarray) -> Interval:
     if not (a.mean() > 0 and b.mean() > 0):
         return Interval(np.nan, np.nan, np.nan)
     log = np.log(a.mean() / b.mean()) + a / a.mean() - b / b.mean()
-    return Interval(*(float(np.expm1(end)) for end in t_interval(log)))
+    return Interval(*(float(np.expm1(end)) for end in t_interval(log, level)))
 
 
 def mean_interval(x: np.ndarray, *, rng) -> Interval:
