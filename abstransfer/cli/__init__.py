@@ -25,6 +25,9 @@ def program() -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # while Python tidies up
     except KeyboardInterrupt:  # just after all was said
         code = 130
+    # An interrupt that once left an `exec` would end Python by a signal, although
+    # it was caught; another `exec` makes it forget.
+    exec("")
     sys.exit(code)
 
 

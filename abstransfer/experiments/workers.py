@@ -9,7 +9,6 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-import sys
 import threading
 import time
 from collections.abc import Callable, Hashable, Mapping
@@ -105,7 +104,7 @@ def run_jobs(
     context = multiprocessing.get_context("spawn")
     reader, writer = context.Pipe(duplex=False)
     n_workers = min(n_workers or os.cpu_count() or 1, len(jobs))
-    pool = None
+    pool = futures = None
     try:
         pool = ProcessPoolExecutor(
             n_workers, context, initializer=_start_worker, initargs=(reader,)
@@ -113,13 +112,13 @@ def run_jobs(
         with _interrupts_held():  # by the workers for good: Ctrl-C is for the parent
             futures = _submit(jobs, pool)
         _collect(futures, on_result)
-    except BrokenProcessPool:
-        raise ChildProcessError(
-            "a worker process died (is there enough memory?); what was done is "
-            "stored if there is a folder for it: run the same again"
-        ) from None
-    except BrokenPipeError:
-        message = f"no worker process could be started with {sys.executable}"
+    except (BrokenProcessPool, OSError) as error:
+        if futures is None:
+            message = f"no worker process can be started ({error})"
+        elif isinstance(error, BrokenProcessPool):
+            message = "a worker process died: is there enough memory?"
+        else:
+            raise
         raise ChildProcessError(message) from None
     finally:
         with _interrupts_held():

@@ -1,11 +1,13 @@
 """The commands that learn: what they print, refuse, store, and survive."""
 
 import json
+import multiprocessing.spawn
 import os
 import signal
 import subprocess
 import sys
 import time
+from multiprocessing import resource_tracker
 from pathlib import Path
 
 import numpy as np
@@ -375,9 +377,8 @@ def test_closed_streams_are_no_error_and_nothing_is_written_into_results(tmp_pat
     assert load_results(tmp_path / "out").goals.shape == (9, 1, 50)
 
 
-def test_workers_that_cannot_start_are_told(tmp_path, capsys, monkeypatch):
-    import multiprocessing.spawn
-
+def test_workers_that_cannot_start_are_told(tmp_path, capsys):
+    resource_tracker.ensure_running()  # it is a process of Python's own
     before = multiprocessing.spawn.get_executable()
     multiprocessing.set_executable("/bin/false")
     try:
