@@ -15,7 +15,7 @@ CHAIN = 300_000  # links: a fifth of a millisecond, shorter than a turn on the c
 def name() -> str:
     """Return what the system calls the processor."""
     try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:
         return platform.processor()
     return next((x.split(": ")[1] for x in lines if x.startswith("model name")), "")
