@@ -392,7 +392,10 @@ LEARN = """() => {
     const at = probe;
     const spec = {
       title: "A test",
+      fields: { n: { start: 0, kind: "whole", bounds: [0, 9], isLocal: false } },
       state: { n: 0 },
+      limits: { n: [0, 9] },
+      local: [],
       build(scene) {
         const map = at.parseMap(at.mapTexts.target);
         const world = at.makeWorld(at.navigationTasks(map, { reward: "goal" }));

@@ -7,11 +7,11 @@
 // This file and `random` are all that a worker needs; a World, a Guide and a Rule are
 // plain records of numbers and typed arrays, so they can be sent to one.
 
-import { A } from "./navigation.js";
 import { fillWords, nextWord, seedState } from "./random.js";
 
 /** @import { Guide, Rule, Step, Tasks, World } from "../types.d.ts" */
 
+const A = 8; // actions; a literal, so that a worker carries the loop only
 const ROW = 5; // a row of outcomes: N, E, S, W, staying
 const FIELD = 65536; // a field of 16 bits chooses the action
 const WORD = 4294967296; // a word of 32 bits the outcome
