@@ -31,7 +31,7 @@ export function shell(scene, body, reset) {
     make("summary", {}, "The numbers behind the picture"),
     table,
   );
-  const warning = make("p", { class: "ab-note ab-now", hidden: true });
+  const warning = make("p", { class: "ab-now", hidden: true });
   let rows = null;
   let next = null;
   let timer = null;
