@@ -16,40 +16,41 @@ V       ``v``                 (S,), expected discounted reward
 Q       ``q``                 (S, A), expected V of the state reached
 ======  ====================  =================================================
 
-The names below stand in the order of the pages.  What needs more than NumPy is loaded
-when it is first used: ``at.q_learning``, and the rooms, such as ``at.plotting``.
+The names below stand in the order of the pages.  Each is loaded when it is first
+used, so that a command line can answer Ctrl-C before anything is.
 """
 
 import lazy_loader
 
-from .maps import Map, parse_map, read_map
-from .mdp import MDP
-from .abstraction import FEATURES, LABELS, describe, unseen_share
-from .navigation import NavigationTasks, navigation_tasks
-from .solvers import (
-    action_values,
-    evaluate_policy,
-    optimal_actions,
-    optimal_values,
-    transition_matrix,
-    value_iteration,
-)
-from .policies import beta_policy, break_ties, restrict_policy, uniform_policy
-from .builders import (
-    Climb,
-    absprob_pi,
-    abstract_gradient,
-    abstract_policies,
-    count_votes,
-    induce_nondeterministic,
-    induce_probabilistic,
-    natural_ascent,
-    random_starts,
-)
-from .driving import executed_values, format_table1, table1
-
 __version__ = "0.1.0"
 
+_CORE = {
+    "maps": ["Map", "parse_map", "read_map"],
+    "mdp": ["MDP"],
+    "abstraction": ["FEATURES", "LABELS", "describe", "unseen_share"],
+    "navigation": ["NavigationTasks", "navigation_tasks"],
+    "solvers": [
+        "action_values",
+        "evaluate_policy",
+        "optimal_actions",
+        "optimal_values",
+        "transition_matrix",
+        "value_iteration",
+    ],
+    "policies": ["beta_policy", "break_ties", "restrict_policy", "uniform_policy"],
+    "builders": [
+        "Climb",
+        "absprob_pi",
+        "abstract_gradient",
+        "abstract_policies",
+        "count_votes",
+        "induce_nondeterministic",
+        "induce_probabilistic",
+        "natural_ascent",
+        "random_starts",
+    ],
+    "driving": ["executed_values", "format_table1", "table1"],
+}
 _LEARNING = ["q_learning", "q_learning_runs"]
 _ROOMS = [
     "learning",
@@ -61,7 +62,7 @@ _ROOMS = [
     "exercises",
 ]
 __getattr__, __dir__, _ = lazy_loader.attach(
-    __name__, submodules=_ROOMS, submod_attrs={"learning": _LEARNING}
+    __name__, submodules=_ROOMS, submod_attrs=_CORE | {"learning": _LEARNING}
 )
 
 __all__ = [

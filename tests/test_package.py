@@ -71,11 +71,11 @@ def loaded_after(code):
     return set(json.loads(done.stdout.splitlines()[-1]))
 
 
-def test_importing_the_package_loads_nothing_heavy():
+def test_importing_the_package_loads_nothing_that_takes_time():
     loaded = loaded_after("import abstransfer")
 
-    assert {"abstransfer.driving", "numpy"} <= loaded
-    assert not HEAVY & loaded
+    assert "abstransfer" in loaded
+    assert not (HEAVY | {"numpy"}) & loaded
 
 
 def test_table_1_needs_scipy_and_nothing_else_that_is_heavy():
