@@ -172,7 +172,7 @@ PLACES = """async (value) => {  // of the lowest rung of the source, till it res
     for (let same = 0; same < 40; same++) {
         await new Promise(requestAnimationFrame);
         const names = [...document.querySelectorAll(".ab-chart text.ab-name")];
-        const rung = names.find((name) => name.textContent.startsWith("random −"));
+        const rung = names.find((name) => name.textContent.startsWith("wanderer −"));
         const y = rung?.getAttribute("y");
         if (!rung || places.has(y)) continue;
         places.add(y);

@@ -106,6 +106,7 @@ SETUPS = [
 
 def widget_of(setup):
     parts = setup._asdict()
+    parts["lives"] = parts.pop("runs")  # addresses keep the word
     lists = {name: list(parts[name]) for name in ("features", "guides")}
     return Project(**parts | lists)
 

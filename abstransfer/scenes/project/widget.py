@@ -53,7 +53,7 @@ class Project(DrawnScene):
         The building in which the advice is made; "own" is the map itself.
     strategy : {"hard", "soft"}
     lives : int, 1 to 20
-        Runs of each robot.
+        Runs of each robot; addresses of old keep the word.
     tool : {"wall", "door", "room", "corridor", "goal"}
 
     Examples
