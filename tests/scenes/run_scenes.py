@@ -42,14 +42,6 @@ class Shown(SceneTab):
         )
         return self.settle()
 
-    def is_idle(self, seconds=10):
-        """Whether no worker is left; a tab hears of their end a little later."""
-        for _ in range(20 * seconds):
-            if not self.page.workers:
-                return True
-            self.page.wait_for_timeout(50)
-        return False
-
     def table(self):
         """The table of numbers, opened: its caption, head and lines."""
         self.rows()

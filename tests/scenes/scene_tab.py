@@ -17,6 +17,42 @@ PAGE = """<!doctype html>
 <body><main><h1>A scene</h1>{scene}</main>{scripts}</body></html>"""
 PROBE = Path(__file__).parent / "js" / "probe.js"
 FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
+# A clock that the test turns, for what plays: `pass(700)`.
+CLOCK = """() => {
+    const beats = new Map();
+    let [now, n] = [0, 0];
+    performance.now = () => now;
+    window.setInterval = (act, every) => {
+        beats.set(++n, { act, every, at: now + every });
+        return n;
+    };
+    window.clearInterval = (id) => beats.delete(id);
+    window.pass = (time) => {
+        const end = now + time;
+        for (;;) {
+            const [next] = [...beats.values()].sort((a, b) => a.at - b.at);
+            if (!next || next.at > end) break;
+            now = next.at;
+            next.at += next.every;
+            next.act();
+        }
+        now = end;
+    };
+}"""
+# Counts the workers that a page begins, in `nWorkers`.
+COUNTED = """
+window.nWorkers = 0;
+window.Worker = class extends Worker {
+  constructor(...all) {
+    super(...all);
+    nWorkers++;
+  }
+};
+"""
+GO = """(hash) => new Promise((f) => {
+    addEventListener("hashchange", f, { once: true });
+    location.hash = hash;
+})"""
 
 # What an act costs a reader's machine, in a measure that all machines agree on: how
 # many nodes and attributes of the scene are written until two pictures later.
@@ -71,6 +107,36 @@ class SceneTab:
     def settle(self):
         self.page.evaluate(FRAMES)
         return self
+
+    def go(self, hash_):
+        """Follow a link to another moment of the scene."""
+        self.page.evaluate(GO, hash_)
+        return self.settle()
+
+    def is_idle(self, seconds=10):
+        """Whether no worker is left; a tab hears of their end a little later."""
+        for _ in range(20 * seconds):
+            if not self.page.workers:
+                return True
+            self.page.wait_for_timeout(50)
+        return False
+
+    def wait_for_worker(self):
+        while not self.page.workers:
+            self.page.wait_for_timeout(20)
+        return self
+
+    @property
+    def plays(self):
+        """Whether the time line goes on by itself."""
+        return self.root.get_by_role("button", name="Pause").count() > 0
+
+    def pictures(self, n):
+        """What the scene holds in each of some pictures: one, if nothing moves."""
+        seen = set()
+        for _ in range(n):
+            seen.add(self.settle().root.inner_html())
+        return seen
 
     def ask(self, code, *arguments):
         """Evaluate code that looks at parts of the front end, in `probe`."""

@@ -27,7 +27,11 @@ window.Worker = class extends Worker {{
   }}
 }};
 """
-WHEN = {"after half its windows": "i === {half}", "while it sends its values": "q"}
+WHEN = {
+    "before its first window": "i === 0",
+    "after half its windows": "i === {half}",
+    "while it sends its values": "q",
+}
 
 
 def race(tab):

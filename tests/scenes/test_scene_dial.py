@@ -191,15 +191,11 @@ def test_workers_end_when_stopped_and_when_the_reader_leaves(open_scene):
     )
     assert len(tab.page.workers) >= 1
     tab.click("Stop")
-    for _ in range(50):
-        tab.page.wait_for_timeout(50)
-        if not tab.page.workers:
-            break
-    assert tab.page.workers == []
+    assert tab.is_idle()
     assert goals(tab, 8.0) == "–"
     tab.click(re.compile("^Let five"))
     tab.page.goto("about:blank")
-    assert tab.page.workers == []
+    assert tab.is_idle()
     assert tab.problems == []
 
 

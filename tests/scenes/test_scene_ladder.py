@@ -275,7 +275,7 @@ def test_the_still_picture_states_the_finding():
     )
 
 
-def test_the_browser_starts_as_python_does(open_scene):
+def test_a_wrong_address_does_no_harm(open_scene):
     tab = ladder(open_scene, query="#ladder.target=x&ladder.near=99&ladder.text=y")
 
     assert "Not legal yet" in tab.root.inner_text()

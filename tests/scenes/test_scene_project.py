@@ -166,11 +166,7 @@ def test_leaving_and_quick_changes_while_it_races(open_scene):
     for text in ("soft: ever less often", "hard: obey to the letter") * 2:
         tab.pick("Advice", text)
     assert "Racing" not in tab.root.inner_text()
-    for _ in range(100):
-        if not tab.page.workers:
-            break
-        tab.page.wait_for_timeout(50)
-    assert not tab.page.workers
+    assert tab.is_idle()
     tab.click("Race")
     tab.page.wait_for_function("() => document.body.innerText.includes('Racing:')")
     tab.page.goto("about:blank")

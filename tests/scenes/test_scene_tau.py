@@ -4,7 +4,7 @@ import json
 
 import pytest
 from run_scenes import SHORT, python_run
-from scene_tab import bare
+from scene_tab import COUNTED, bare
 
 from abstransfer.experiments.arms import TAUS
 from abstransfer.scenes import TauSlider
@@ -68,14 +68,13 @@ def test_the_page_carries_what_it_shows_first(slider):
 
 
 def test_it_says_something_at_once_without_a_worker(show, slider):
-    scene = show(slider)
-    scene.page.wait_for_timeout(400)
+    scene = show(slider, first=COUNTED)
 
-    assert scene.is_idle()
     totals = [sum(curve(slider, side, 9e6)) for side in SIDES]
     for total in totals:
         assert f"{total:,} " in scene.words
     assert scene.root.locator(".ab-chart").count() == 3
+    assert scene.page.evaluate("nWorkers") == 0
     assert scene.problems == []
 
 
@@ -197,9 +196,7 @@ def test_a_moment_has_an_address_and_a_reset(show, slider):
 def test_leaving_while_it_learns_ends_the_workers(show):
     scene = show(TauSlider(steps=6_000_000), "#tau.all=true")
     scene.page.wait_for_function("document.body.innerText.includes('Stop (')")
-    scene.page.wait_for_timeout(300)
-    assert scene.page.workers
-    scene.button("Stop").click()
+    scene.wait_for_worker().button("Stop").click()
     scene.settle()
     assert scene.is_idle()
     to_learning(scene)
@@ -213,8 +210,7 @@ def to_learning(scene):
     """Move the slider, and wait for a worker."""
     scene.slider("Advice until step").fill("15000000")
     scene.page.wait_for_function("document.body.innerText.includes(': learning')")
-    while not scene.page.workers:
-        scene.page.wait_for_timeout(20)
+    scene.wait_for_worker()
 
 
 def test_on_a_phone_with_little_motion(show, slider):

@@ -2,18 +2,14 @@
 
 import json
 import re
-from importlib.resources import files
 
 import numpy as np
 import pytest
-from scene_tab import bare, probe
+from scene_tab import AXE, CLOCK, FRAMES, bare, probe
 
 from abstransfer import maps, navigation, scenes
 from abstransfer.learning import q_learning
 from abstransfer.scenes.microscope.widget import BET, STARTS, STEPS, TWO_ROOMS
-
-AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
-FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
 
 
 class Microscope:
@@ -34,6 +30,11 @@ class Microscope:
     def pick(self, group, text):
         inside = self.root.get_by_role("group", name=group)
         inside.get_by_text(text, exact=True).click()
+        return self.settle()
+
+    def pass_time(self, milliseconds):
+        """Turn the clock of the page, once it is `CLOCK`."""
+        self.page.evaluate("time => pass(time)", milliseconds)
         return self.settle()
 
     @property
@@ -216,15 +217,12 @@ def test_a_click_chooses_a_goal(microscope):
 
 
 def test_play_and_pause(microscope):
-    microscope.click("To the start").click("Play")
-    microscope.page.wait_for_function(
-        "Number(document.querySelector('.ab-timeline input').value) > 2"
-    )
-    microscope.click("Pause")
-    at = microscope.step
-    microscope.page.wait_for_timeout(300)
+    microscope.page.evaluate(CLOCK)
+    microscope.click("To the start").click("Play").pass_time(1000)
+    assert microscope.step == 8, "steps a second"
+    microscope.click("Pause").pass_time(9000)
 
-    assert microscope.step == at
+    assert microscope.step == 8
 
 
 def test_a_reset_ends_playing(microscope):
@@ -355,15 +353,15 @@ def test_a_phone_and_a_change_of_theme_while_playing(at_scenes):
 def test_less_motion_means_slow_steps_and_nothing_glides(at_scenes):
     scene = Microscope(at_scenes(reduced_motion="reduce"))
     assert scene.step == 111
-    scene.page.wait_for_timeout(200)
-    assert scene.step == 111, "nothing plays by itself"
+    scene.root.get_by_role("button", name="Play", exact=True).wait_for()
     robot = scene.root.locator(".ab-robot")
     assert robot.evaluate("e => getComputedStyle(e).transitionDuration") == "0s"
 
     scene.root.get_by_role("combobox", name="Speed").select_option("30")
-    scene.click("Play")
-    scene.page.wait_for_timeout(700)
-    assert scene.step <= 113
+    scene.page.evaluate(CLOCK)
+    scene.click("Play").pass_time(900)
+    assert scene.step == 112, "a step every half second, not 30 a second"
+    assert scene.pass_time(5000).step == 122
 
 
 def test_the_still_picture_is_for_print_and_without_script(at_scenes):
