@@ -64,7 +64,7 @@ def main():
             rows.append(row)
             times = f"{row['times_c']:8.3f} x C" if row["times_c"] else ""
             print(
-                f"{strategy:5} {row['name']:28} {row['ns_per_step']:10.1f} ns {times}"
+                f"{strategy:5} {row['name']:30} {row['ns_per_step']:10.1f} ns {times}"
             )
     quiet = [round(value, 2) for value in np.quantile(quiet, [0, 0.5, 1])]
     print("independent operations a cycle (quiet: above 3): lowest, middle, highest")
