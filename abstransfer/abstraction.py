@@ -27,10 +27,10 @@ NO_LABEL = -1
 class Sight(NamedTuple):
     """What is seen in each of C cells; directions are N, E, S, W."""
 
-    neighbors: np.ndarray  # (C, 4) cell in that direction, or -1
-    labels: np.ndarray  # (C, 4) index into LABELS of what is seen, or NO_LABEL
-    distance: np.ndarray  # (C,) Manhattan distance to the goal
-    in_room: np.ndarray  # (C,) bool
+    neighbors: np.ndarray  #: (C, 4) cell in that direction, or -1
+    labels: np.ndarray  #: (C, 4) index into LABELS of what is seen, or NO_LABEL
+    distance: np.ndarray  #: (C,) Manhattan distance to the goal
+    in_room: np.ndarray  #: (C,) bool
 
 
 def look(map_: Map, goal: int) -> Sight:

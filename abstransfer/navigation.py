@@ -39,16 +39,16 @@ class NavigationTasks:
     """
 
     mdp: MDP
-    rho: np.ndarray  # (S,) abstract state: bit f is 1 iff feature f holds
-    available: np.ndarray  # (S, A) bool: the action has a direction to go in
-    labels: np.ndarray  # (S, 4) index into LABELS of what is seen, or NO_LABEL
-    task: np.ndarray  # (S,) number of the task
-    cell: np.ndarray  # (S,) cell of its map
-    maps: tuple[Map, ...]  # one per building
-    building: np.ndarray  # (N,) index into maps, by task
-    goal: np.ndarray  # (N,) goal cell, by task
-    actions: tuple[str, ...]  # A names
-    features: tuple[str, ...]  # F names
+    rho: np.ndarray  #: (S,) abstract state: bit f is 1 iff feature f holds
+    available: np.ndarray  #: (S, A) bool: the action has a direction to go in
+    labels: np.ndarray  #: (S, 4) index into LABELS of what is seen, or NO_LABEL
+    task: np.ndarray  #: (S,) number of the task
+    cell: np.ndarray  #: (S,) cell of its map
+    maps: tuple[Map, ...]  #: one per building
+    building: np.ndarray  #: (N,) index into maps, by task
+    goal: np.ndarray  #: (N,) goal cell, by task
+    actions: tuple[str, ...]  #: A names
+    features: tuple[str, ...]  #: F names
 
     @property
     def n_abstract(self) -> int:

@@ -21,8 +21,8 @@ from ..solvers import TIE, action_values, factorize, transition_matrix
 class Climb(NamedTuple):
     """An abstract policy that was climbed to, and the values on the way."""
 
-    policy: np.ndarray  # (Z, A)
-    history: np.ndarray  # (iterations + 1,) value before the first step, after each
+    policy: np.ndarray  #: (Z, A)
+    history: np.ndarray  #: (iterations + 1,) value before the first step, after each
 
 
 def abstract_gradient(

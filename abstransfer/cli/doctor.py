@@ -33,10 +33,10 @@ DESCRIPTION = "Check versions, kernel and browser."
 class Check(NamedTuple):
     """One thing that was looked at."""
 
-    name: str
-    ok: bool
-    found: str  # a version, a path, or "nothing"
-    remedy: str  # what to do if not ok; else ""
+    name: str  #: what is looked at
+    ok: bool  #: whether it is as it should be
+    found: str  #: a version, a path, or "nothing"
+    remedy: str  #: what to do if not ok; else ""
 
 
 def add_options(parser) -> None:

@@ -20,11 +20,11 @@ PAPER_STEPS = 30_000_000
 class Arm(NamedTuple):
     """One learner."""
 
-    name: str  # "none", or guide and strategy, as in "nd-hard"
-    guide: str | None  # "rand", a builder, or the name of a policy you pass
-    strategy: str  # "hard" or "soft"; not read without a guide
-    tau: int  # steps of advice, at paper scale
-    hint: float = 0.0  # first note on the actions that exist, above all others
+    name: str  #: "none", or guide and strategy, as in "nd-hard"
+    guide: str | None  #: "rand", a builder, or the name of a policy you pass
+    strategy: str  #: "hard" or "soft"; not read without a guide
+    tau: int  #: steps of advice, at paper scale
+    hint: float = 0.0  #: first note on the actions that exist, above all others
 
     def record(self) -> dict:
         """Return the arm for JSON; without a hint, as before there was one."""
@@ -50,8 +50,8 @@ TAUS = tuple(
 class Scale(NamedTuple):
     """How long every run learns."""
 
-    steps: int
-    window: int  # steps in which goals are counted together
+    steps: int  #: of a run
+    window: int  #: steps in which goals are counted together
 
     def tau(self, arm: Arm) -> int:
         """

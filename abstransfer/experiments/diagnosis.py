@@ -28,8 +28,8 @@ from ..solvers import (
 class Arrival(NamedTuple):
     """How an episode that starts in each state ends, exactly."""
 
-    arrived: np.ndarray  # (S,) probability to reach a terminal state in time
-    steps: np.ndarray  # (S,) expected steps, until then or until the cut
+    arrived: np.ndarray  #: (S,) probability to reach a terminal state in time
+    steps: np.ndarray  #: (S,) expected steps, until then or until the cut
 
     def goals_per_step(self, start: np.ndarray) -> float:
         """Return the goals per step if all states in `start` begin equally often."""
@@ -92,10 +92,10 @@ def can_arrive(mdp: MDP, policy: np.ndarray) -> np.ndarray:
 class Notes(NamedTuple):
     """What a table of Q holds when the guide leaves, mean over runs."""
 
-    goals: float  # goals reached so far
-    tried: float  # share of non-terminal states' actions ever taken
-    informed: float  # share of non-terminal states with a note above 0
-    skill: float  # value of obeying the notes, as a share of the best value
+    goals: float  #: goals reached so far
+    tried: float  #: share of non-terminal states' actions ever taken
+    informed: float  #: share of non-terminal states with a note above 0
+    skill: float  #: value of obeying the notes, as a share of the best value
 
 
 def notes_after(

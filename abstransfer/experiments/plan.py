@@ -24,13 +24,13 @@ CHUNK = 6  # runs in a job; they share the loop, so that none waits for memory a
 class Plan(NamedTuple):
     """An experiment, checked, before its first step."""
 
-    arms: tuple[Arm, ...]
-    problem: Problem
-    scale: Scale
-    n_runs: int
-    seed: int
-    stream: str
-    guides: dict[str, np.ndarray]  # abstract policies (Z, A)
+    arms: tuple[Arm, ...]  #: what is compared
+    problem: Problem  #: what is learned
+    scale: Scale  #: steps of a run and of a window
+    n_runs: int  #: runs of each arm
+    seed: int  #: of all runs
+    stream: str  #: "report" or "tune"
+    guides: dict[str, np.ndarray]  #: abstract policies (Z, A)
 
     @property
     def shape(self) -> tuple[int, int, int]:

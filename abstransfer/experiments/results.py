@@ -30,9 +30,9 @@ HEADER = "arm,tau,run,window,goals"
 class Results(NamedTuple):
     """Goals of every arm, run and window, and what made them."""
 
-    arms: tuple[Arm, ...]
-    goals: np.ndarray  # (arms, N runs, B windows) goals reached
-    record: dict  # parameters, versions, seconds: experiment.json
+    arms: tuple[Arm, ...]  #: what was compared
+    goals: np.ndarray  #: (arms, N runs, B windows) goals reached
+    record: dict  #: parameters, versions, seconds: experiment.json
 
     def curves(self, name: str, tau: int | None = None) -> np.ndarray:
         """

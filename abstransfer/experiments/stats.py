@@ -25,9 +25,9 @@ BATCH = 250  # resamples held in memory at a time: 6 MB for 50 runs x 60 windows
 class Interval(NamedTuple):
     """An estimate, and the ends of its bootstrap interval."""
 
-    estimate: float | np.ndarray
-    low: float | np.ndarray  # nan where a single run says nothing about others
-    high: float | np.ndarray
+    estimate: float | np.ndarray  #: the best guess
+    low: float | np.ndarray  #: nan where a single run says nothing about others
+    high: float | np.ndarray  #: the upper end
 
 
 def bootstrap(statistic: Callable, *samples: np.ndarray, rng) -> Interval:

@@ -165,11 +165,11 @@ def digest(mdp: MDP, trace: Trace, gamma: float = 0.9) -> np.ndarray:
 class Left(NamedTuple):
     """What one run's robots have noted when their advice ends; same luck for all."""
 
-    notes: dict[str, np.ndarray]  # Q (S, A) by guide
-    digested: dict[str, np.ndarray]  # the same experience, thought through
-    best: np.ndarray  # Q* (S, A)
-    available: np.ndarray  # (S, A) bool
-    rng: np.random.Generator  # the surgeon's luck
+    notes: dict[str, np.ndarray]  #: Q (S, A) by guide
+    digested: dict[str, np.ndarray]  #: the same experience, thought through
+    best: np.ndarray  #: Q* (S, A)
+    available: np.ndarray  #: (S, A) bool
+    rng: np.random.Generator  #: the surgeon's luck
 
 
 def leave(

@@ -26,15 +26,15 @@ from .stats import (
 class Tuning(NamedTuple):
     """What the grid says of one arm; tau in steps at paper scale."""
 
-    name: str
-    taus: np.ndarray  # (T,) ascending
-    goals: Interval  # (T,) mean goals of a run
-    best: int  # tau of the highest mean
-    low: int  # ends of the bootstrap interval of the best tau, on the grid
-    high: int
-    as_good: tuple[int, ...]  # those that may be the best: 95 % sure to hold it
-    paper: int | None  # the paper's tau, None if its grid point is missing
-    paper_gain: Interval | None  # goals at the paper's tau over those at the best, - 1
+    name: str  #: of the arm
+    taus: np.ndarray  #: (T,) ascending
+    goals: Interval  #: (T,) mean goals of a run
+    best: int  #: tau of the highest mean
+    low: int  #: ends of the bootstrap interval of the best tau, on the grid
+    high: int  #: the upper end
+    as_good: tuple[int, ...]  #: those that may be the best: 95 % sure to hold it
+    paper: int | None  #: the paper's tau, None if its grid point is missing
+    paper_gain: Interval | None  #: goals at the paper's tau over those at the best, - 1
 
     @property
     def paper_inside(self) -> bool:

@@ -31,13 +31,13 @@ STOP = threading.Event()  # set in a worker process whose parent wants no more
 class Job(NamedTuple):
     """Some runs of one arm: all that a worker needs to know."""
 
-    problem: Problem
-    strategy: str
-    tau: int  # steps of advice, at this scale
-    guide: np.ndarray | None  # (Z, A)
-    scale: Scale
-    seeds: tuple[np.random.SeedSequence, ...]  # one per run
-    hint: float = 0.0  # first note on what can be done, above the problem's q0
+    problem: Problem  #: what is learned
+    strategy: str  #: "hard" or "soft"
+    tau: int  #: steps of advice, at this scale
+    guide: np.ndarray | None  #: (Z, A)
+    scale: Scale  #: steps of a run and of a window
+    seeds: tuple[np.random.SeedSequence, ...]  #: one per run
+    hint: float = 0.0  #: first note on what can be done, above the problem's q0
 
 
 def run_job(

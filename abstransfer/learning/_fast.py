@@ -32,13 +32,13 @@ BLOCK = 256  # steps whose words are drawn at once: 4 KB, stays in the nearest c
 class FastRun(NamedTuple):
     """What changes while a run goes on."""
 
-    q: np.ndarray  # (8 S,) values, -inf where there is no action
-    target: np.ndarray  # (S,) reward + gamma * largest value: what arriving gives
-    sets: np.ndarray  # (2 S,) uint8, a bit an action: [2s] best, [2s + 1] allowed
-    rng: np.ndarray  # (2, 4) as in loop.Run, and so the next two
-    place: np.ndarray  # (2,)
-    ended: np.ndarray  # (2,)
-    words: np.ndarray  # (2 BLOCK,) int64
+    q: np.ndarray  #: (8 S,) values, -inf where there is no action
+    target: np.ndarray  #: (S,) reward + gamma * largest value: what arriving gives
+    sets: np.ndarray  #: (2 S,) uint8, a bit an action: [2s] best, [2s + 1] allowed
+    rng: np.ndarray  #: (2, 4) as in loop.Run, and so the next two
+    place: np.ndarray  #: (2,)
+    ended: np.ndarray  #: (2,)
+    words: np.ndarray  #: (2 BLOCK,) int64
 
 
 @inlined

@@ -25,7 +25,7 @@ class Setup(NamedTuple):
     rule: loop.Rule
     world: loop.World
     guide: loop.Guide
-    tables: Tables | None  # None: too large a world for the fast loop
+    tables: Tables | None  #: None: too large a world for the fast loop
     fast_guide: FastGuide | None
 
 

@@ -23,18 +23,18 @@ from .loop import Guide, World
 class Tables(NamedTuple):
     """The arrays of an MDP in the form the fast loop reads."""
 
-    row: np.ndarray  # (8 S,) which outcome row each action has
-    outcome: np.ndarray  # (16 rows,) int32: last word - 2^31 of 8 outcomes; s_next - s
-    reward: np.ndarray  # (S,)
-    start: np.ndarray  # (N,) int64
-    member: np.ndarray  # (4096,) uint8: [16 set + i] is its i-th action, 8: its size
+    row: np.ndarray  #: (8 S,) which outcome row each action has
+    outcome: np.ndarray  #: (16 rows,) int32: last word - 2^31 of 8 outcomes; s_next - s
+    reward: np.ndarray  #: (S,)
+    start: np.ndarray  #: (N,) int64
+    member: np.ndarray  #: (4096,) uint8: [16 set + i] is its i-th action, 8: its size
 
 
 class FastGuide(NamedTuple):
     """A policy in the form the fast loop reads."""
 
-    row: np.ndarray  # (S,) which row of `last`
-    last: np.ndarray  # (8 rows,) int32: the last field that chooses each action
+    row: np.ndarray  #: (S,) which row of `last`
+    last: np.ndarray  #: (8 rows,) int32: the last field that chooses each action
 
 
 def integer_bounds(prob: np.ndarray, bits: int) -> np.ndarray:

@@ -24,38 +24,38 @@ LOWEST = -np.finfo(np.float64).max  # not above any value but a masked action's
 class World(NamedTuple):
     """The arrays of an MDP in the form the loop reads."""
 
-    next_state: np.ndarray  # (S, A, K) int32
-    bound: np.ndarray  # (S, A, K) int64: outcome k takes the words below bound[k]
-    reward: np.ndarray  # (S,) for reaching a state
-    terminal: np.ndarray  # (S,) bool
-    start: np.ndarray  # (N,) int64: states an episode may start in
+    next_state: np.ndarray  #: (S, A, K) int32
+    bound: np.ndarray  #: (S, A, K) int64: outcome k takes the words below bound[k]
+    reward: np.ndarray  #: (S,) for reaching a state
+    terminal: np.ndarray  #: (S,) bool
+    start: np.ndarray  #: (N,) int64: states an episode may start in
 
 
 class Guide(NamedTuple):
     """A policy in the form the loop reads."""
 
-    row: np.ndarray  # (S,) int64: row of `bound` that holds the state's policy
-    bound: np.ndarray  # (R, A) int64: action a takes the fields below bound[a]
+    row: np.ndarray  #: (S,) int64: row of `bound` that holds the state's policy
+    bound: np.ndarray  #: (R, A) int64: action a takes the fields below bound[a]
 
 
 class Rule(NamedTuple):
     """How to learn."""
 
-    alpha: float  # learning rate
-    gamma: float  # discount
-    explore: int  # epsilon in 65536ths
-    max_episode: int  # steps after which an episode is cut
-    tau: int  # the guide has a say in steps 1..tau
-    hard: bool  # it decides alone there; soft: it fades
+    alpha: float  #: learning rate
+    gamma: float  #: discount
+    explore: int  #: epsilon in 65536ths
+    max_episode: int  #: steps after which an episode is cut
+    tau: int  #: the guide has a say in steps 1..tau
+    hard: bool  #: it decides alone there; soft: it fades
 
 
 class Run(NamedTuple):
     """What changes while a run goes on."""
 
-    q: np.ndarray  # (S, W) values, W >= A; 0 in terminal states, -inf if masked
-    rng: np.ndarray  # (2, 4) uint32: the generators of steps and of starts
-    place: np.ndarray  # (2,) int64: the state, the steps left before a cut
-    ended: np.ndarray  # (2,) int64: episodes that ended at a GOAL, that were CUT
+    q: np.ndarray  #: (S, W) values, W >= A; 0 in terminal states, -inf if masked
+    rng: np.ndarray  #: (2, 4) uint32: the generators of steps and of starts
+    place: np.ndarray  #: (2,) int64: the state, the steps left before a cut
+    ended: np.ndarray  #: (2,) int64: episodes that ended at a GOAL, that were CUT
 
 
 @inlined

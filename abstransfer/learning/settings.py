@@ -83,25 +83,25 @@ def check(name: str, value):
 class Trace(NamedTuple):
     """The first T steps of a run."""
 
-    state: np.ndarray  # (T,)
-    action: np.ndarray  # (T,)
-    how: np.ndarray  # (T,) 0 the guide chose, 1 explored, 2 a largest value
-    next_state: np.ndarray  # (T,)
-    reward: np.ndarray  # (T,)
-    before: np.ndarray  # (T,) Q(state, action) before the step
-    after: np.ndarray  # (T,) and after it
+    state: np.ndarray  #: (T,)
+    action: np.ndarray  #: (T,)
+    how: np.ndarray  #: (T,) 0 the guide chose, 1 explored, 2 a largest value
+    next_state: np.ndarray  #: (T,)
+    reward: np.ndarray  #: (T,)
+    before: np.ndarray  #: (T,) Q(state, action) before the step
+    after: np.ndarray  #: (T,) and after it
 
 
 class QLearningResult(NamedTuple):
     """What a run of Q-learning learned, and how often it arrived."""
 
-    goals: np.ndarray  # (B,) episodes that reached a terminal state, by window
-    cuts: np.ndarray  # (B,) episodes cut short, by window
-    n_steps: int
-    window: int  # steps of a window; the last one may be shorter
-    q: np.ndarray  # (S, A); 0 in terminal states, -inf for masked actions
-    trace: Trace  # of the first steps
-    checkpoints: np.ndarray  # (C, S, A) Q after the steps asked for
+    goals: np.ndarray  #: (B,) episodes that reached a terminal state, by window
+    cuts: np.ndarray  #: (B,) episodes cut short, by window
+    n_steps: int  #: steps of the run
+    window: int  #: steps of a window; the last one may be shorter
+    q: np.ndarray  #: (S, A); 0 in terminal states, -inf for masked actions
+    trace: Trace  #: of the first steps
+    checkpoints: np.ndarray  #: (C, S, A) Q after the steps asked for
 
 
 def _option(default, kind: str, meaning: str, **limits):
@@ -123,7 +123,7 @@ class Settings:
     """What a run of Q-learning is, but for its luck: see ``learning.q_learning``."""
 
     mdp: MDP
-    guide: np.ndarray | None = None  # (S, A)
+    guide: np.ndarray | None = None  #: (S, A)
     strategy: str = _option(
         "hard", "choice", "the guide decides alone, or fades", choices=STRATEGIES
     )
@@ -134,7 +134,7 @@ class Settings:
     q0: float | np.ndarray = _number(  # becomes (S, A)
         0.0, "value that all actions start from", least=-LARGEST, most=LARGEST
     )
-    start: Sequence[int] | None = None  # becomes (N,) int64
+    start: Sequence[int] | None = None  #: becomes (N,) int64
     max_episode: int = _whole(5000, "steps after which an episode is cut", least=1)
     window: int = _whole(500_000, "steps that are counted together", least=1)
     trace: int = _whole(0, "first steps that are recorded", most=10_000_000)

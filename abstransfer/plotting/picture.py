@@ -36,7 +36,7 @@ class Picture:
 
     alt: str
     svg: str = field(repr=False)
-    drawn: object = field(repr=False, compare=False)  # the matplotlib Figure
+    drawn: object = field(repr=False, compare=False)  #: the matplotlib Figure
 
     def __repr__(self) -> str:
         return self.alt

@@ -51,11 +51,11 @@ RC = {
 class ArmStyle(NamedTuple):
     """How one arm looks in every figure."""
 
-    name: str  # as written beside its mark
-    color: str
-    marker: str
-    dash: tuple  # matplotlib's line style
-    filled: bool  # whether its marks and boxes are
+    name: str  #: as written beside its mark
+    color: str  #: as matplotlib takes it
+    marker: str  #: as matplotlib takes it
+    dash: tuple  #: matplotlib's line style
+    filled: bool  #: whether its marks and boxes are
 
     @property
     def face(self) -> str:

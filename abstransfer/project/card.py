@@ -28,8 +28,8 @@ HEAD = ("robot", "drives", "goals of a life", "over none")
 class Verified(NamedTuple):
     """A race that was run again."""
 
-    setup: Setup
-    race: Race
+    setup: Setup  #: what was raced
+    race: Race  #: the race, run again
 
 
 def card_text(

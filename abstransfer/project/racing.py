@@ -24,13 +24,13 @@ from ..policies import restrict_policy
 class Race(NamedTuple):
     """What was run, and the goals of each run."""
 
-    tasks: NavigationTasks  # where the robots learned
-    guides: dict[str, np.ndarray]  # abstract policies (Z, A)
-    goals: dict[str, np.ndarray]  # (N,) goals of each run; "none" is Q-learning
-    steps: int
-    tau: int
-    strategy: str
-    seed: int
+    tasks: NavigationTasks  #: where the robots learned
+    guides: dict[str, np.ndarray]  #: abstract policies (Z, A)
+    goals: dict[str, np.ndarray]  #: (N,) goals of each run; "none" is Q-learning
+    steps: int  #: of a run
+    tau: int  #: last step in which advice has a say
+    strategy: str  #: "hard" or "soft"
+    seed: int  #: of all runs
 
     def gains(self, rng=0) -> dict[str, Interval]:
         """Return by which share each robot exceeds "none": 0.1 is 10 % more goals."""

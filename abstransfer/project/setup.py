@@ -31,12 +31,12 @@ PAPER_TAU = 3.5 / 30  # share of a run in which the paper's guide advises
 class Setup(NamedTuple):
     """All that a race of a project depends on; its numbers follow."""
 
-    map: Map  # where the robots learn
-    features: tuple[str, ...] = FEATURES  # what they see
-    guides: tuple[str, ...] = (*BUILDERS, "eager")
-    advice: str = "source"  # building the advice comes from; "own" is the map itself
-    strategy: str = "hard"
-    runs: int = 5
+    map: Map  #: where the robots learn
+    features: tuple[str, ...] = FEATURES  #: what they see
+    guides: tuple[str, ...] = (*BUILDERS, "eager")  #: names of the advice
+    advice: str = "source"  #: building the advice comes from; "own" is the map itself
+    strategy: str = "hard"  #: "hard" or "soft"
+    runs: int = 5  #: of each robot
 
     @property
     def robots(self) -> tuple[str, ...]:

@@ -40,10 +40,10 @@ SHARES = (0.1, 0.25, 0.5, 0.75)
 class Advice(NamedTuple):
     """How a guide is made: (1 - share) base^beta + share x uniform."""
 
-    base: str  # a builder: "prob", "grad"
-    beta: float = 1  # 0 keeps which actions, and forgets how often
-    into: str = "available"  # what the uniform part draws from: "available", "all"
-    share: float = 0
+    base: str  #: a builder: "prob", "grad"
+    beta: float = 1  #: 0 keeps which actions, and forgets how often
+    into: str = "available"  #: what the uniform part draws from: "available", "all"
+    share: float = 0  #: of the uniform part
 
 
 def _diluted(name: str, base: str, beta: float, into: str) -> dict[str, Advice]:
@@ -66,17 +66,17 @@ ADVICE = {
 class Experiment(NamedTuple):
     """One folder of results."""
 
-    folder: str
-    n_runs: int
-    reward: str = "goal"
-    target: str = "target"
-    problem: Mapping = {}  # what else is not the problem of the book
-    grid: bool = False  # every guided arm at every tau, with the tuning seeds
-    tuned_by: str | None = None  # folder of the grid whose best tau to take
-    guides: tuple[str, ...] = ()  # names in ADVICE, in place of the nine arms
-    strategies: tuple[str, ...] = STRATEGIES  # under which they are given
-    taus: tuple[int, ...] = ()  # for which they are given, in place of TAU
-    given: tuple[Arm, ...] = ()  # arms in place of all these
+    folder: str  #: its name below data/results
+    n_runs: int  #: runs of each arm
+    reward: str = "goal"  #: "goal" or "cost"
+    target: str = "target"  #: name of the map
+    problem: Mapping = {}  #: what else is not the problem of the book
+    grid: bool = False  #: every guided arm at every tau, with the tuning seeds
+    tuned_by: str | None = None  #: folder of the grid whose best tau to take
+    guides: tuple[str, ...] = ()  #: names in ADVICE, in place of the nine arms
+    strategies: tuple[str, ...] = STRATEGIES  #: under which they are given
+    taus: tuple[int, ...] = ()  #: for which they are given, in place of TAU
+    given: tuple[Arm, ...] = ()  #: arms in place of all these
 
     def arms(self, out: str | Path) -> tuple[Arm, ...]:
         """

@@ -25,19 +25,19 @@ GUIDED = ("rand-hard", "rand-soft", *ABSTRACT)
 class Claim(NamedTuple):
     """A claim as data."""
 
-    key: str
-    title: str
-    quote: str  # the paper's words
-    test: str  # in words
-    findings: tuple[Finding, ...]  # the same, not yet measured
+    key: str  #: its number
+    title: str  #: in a few words
+    quote: str  #: the paper's words
+    test: str  #: in words
+    findings: tuple[Finding, ...]  #: the same, not yet measured
 
 
 class Entry(NamedTuple):
     """A claim, judged on one experiment."""
 
-    claim: Claim
-    findings: tuple[Finding, ...]
-    verdict: str
+    claim: Claim  #: what is judged
+    findings: tuple[Finding, ...]  #: its parts
+    verdict: str  #: of all parts together
 
 
 CLAIMS = (

@@ -24,9 +24,9 @@ ND, PROB = "nd", "prob"
 class Hypothesis(NamedTuple):
     """A claim, and the contrast that is above 0 if it is right."""
 
-    key: str
-    text: str
-    weights: Mapping[str, float]  # by arm
+    key: str  #: as in data/hypotheses.md
+    text: str  #: what is predicted
+    weights: Mapping[str, float]  #: by arm
 
 
 def _beyond(share: float, gained: Mapping[str, float]) -> dict[str, float]:

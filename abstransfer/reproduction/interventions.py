@@ -146,13 +146,13 @@ OPERATIONS: dict[str, Callable[[Left], np.ndarray]] = {
 class Case(NamedTuple):
     """One run of the experiment: all that a worker needs to know."""
 
-    problem: Problem
-    guides: Mapping[str, np.ndarray]  # advice (Z, A) of the robots
-    operations: tuple[str, ...]
-    tau: int
-    n_steps: int  # of a whole run
-    seed: int
-    run: int
+    problem: Problem  #: what is learned
+    guides: Mapping[str, np.ndarray]  #: advice (Z, A) of the robots
+    operations: tuple[str, ...]  #: what is done to the notes
+    tau: int  #: steps of advice
+    n_steps: int  #: of a whole run
+    seed: int  #: of all runs
+    run: int  #: which run
 
 
 def operate(case: Case) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

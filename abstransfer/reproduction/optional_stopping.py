@@ -27,10 +27,10 @@ KEYS = (*(claim.key for claim in CLAIMS[:5]), SAME)
 class Stops(NamedTuple):
     """What a reader who looks after each run does, in all orders."""
 
-    verdict: str  # of all runs
-    settled: int  # runs from which on no verdict changes, in any order
-    stops: tuple[int | None, ...]  # runs after which each track is signed, if it is
-    wrong: int  # how many of them are signed against all runs
+    verdict: str  #: of all runs
+    settled: int  #: runs from which on no verdict changes, in any order
+    stops: tuple[int | None, ...]  #: runs after which each track is signed, if it is
+    wrong: int  #: how many of them are signed against all runs
 
 
 def comparisons(results: Results, key: str) -> tuple[Finding, ...]:

@@ -37,13 +37,13 @@ UNKNOWN = Interval(np.nan, np.nan, np.nan)
 class Finding(NamedTuple):
     """One effect, and whether it is what the paper says."""
 
-    kind: str  # of the effect: a name in KINDS
-    a: str = ""  # an arm, or a policy
-    b: str = ""  # what it is compared with
-    threshold: float = 0.0
-    above: bool = True  # the side of the threshold on which the paper sees the effect
-    main: bool = True  # else a condition: it can lower the verdict, not raise it
-    effect: Interval = UNKNOWN
+    kind: str  #: of the effect: a name in KINDS
+    a: str = ""  #: an arm, or a policy
+    b: str = ""  #: what it is compared with
+    threshold: float = 0.0  #: what the effect is compared with
+    above: bool = True  #: the side of the threshold on which the paper sees the effect
+    main: bool = True  #: else a condition: it can lower the verdict, not raise it
+    effect: Interval = UNKNOWN  #: the interval that was found
 
     @property
     def text(self) -> str:
@@ -88,8 +88,9 @@ class Finding(NamedTuple):
 class Kind(NamedTuple):
     """A kind of effect."""
 
-    words: str
-    unit: str
+    words: str  #: how its text is made
+    unit: str  #: of its effect
+    #: how it is computed
     effect: Callable[[Results, str, str, np.random.Generator], Interval] | None
 
 

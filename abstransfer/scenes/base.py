@@ -28,10 +28,10 @@ MANY = 9999  # where a trait has no largest number: the map will say
 class Still(NamedTuple):
     """What stands for a scene where no script runs."""
 
-    frames: Sequence[str]  # SVG; the last is shown on a screen, all in print
-    caption: str  # what is to be seen
-    head: Sequence[str]  # of the table of numbers
-    rows: Sequence[Sequence[object]]
+    frames: Sequence[str]  #: SVG; the last is shown on a screen, all in print
+    caption: str  #: what is to be seen
+    head: Sequence[str]  #: of the table of numbers
+    rows: Sequence[Sequence[object]]  #: of the table
 
     def html(self) -> str:
         """Return the picture, the caption and the table."""
