@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-compiled = njit(cache=True, nogil=True)  # of every loop here and in the kernels
+compiled = njit(cache=True, nogil=True)  # of every loop, here and in other files
 inlined = njit(cache=True, nogil=True, forceinline=True)  # and of their parts
 
 WORD = 0xFFFFFFFF  # the largest word

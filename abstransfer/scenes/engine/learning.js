@@ -1,6 +1,6 @@
 // Q-learning with or without a guide: the same runs as Python's, to the bit.
 //
-// Python's `_kernels` says what a run is; this loop looks up what that one computes.
+// Python's `learning/loop.py` says what a run is; this loop looks up what that one computes.
 // Beside the values it keeps, for every state, the largest and the set of actions
 // that have it (a mask of 8 bits), renewed as a step changes one value.
 //

@@ -1,5 +1,5 @@
 // A project: its advice, how it drives, how long a run is, and the text to
-// hand in.  See Python's `project` and `project_card`.
+// hand in.  See Python's `project/racing.py` and `project/card.py`.
 
 import { absprobPi, ITERATIONS } from "../engine/absprob_pi.js";
 import { makeGuide, makeWorld } from "../engine/learning.js";
