@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 import time
+from itertools import pairwise
 from pathlib import Path
 
 from llvmlite.binding import get_host_cpu_features
@@ -51,9 +52,15 @@ def quietness() -> float:
     In a chain each waits for the one before, a cycle; four chains could take no
     longer than one.  Above 3 it is quiet; about 2, something shares the core.
     """
-    _one(1, 1), _four(1, 1, 2, 3, 4)
+    one, four = _seconds(_one, 1), _seconds(_four, 1, 2, 3, 4)
+    return 4 * one / four
+
+
+def _seconds(chains, *starts) -> float:
+    """Return what chains take, of three times the least: one may be interrupted."""
+    chains(1, *starts)  # compiles
     times = [time.process_time()]
-    for chains, *starts in ((_one, 1), (_four, 1, 2, 3, 4)):
+    for _ in range(3):
         chains(CHAIN, *starts)
         times.append(time.process_time())
-    return 4 * (times[1] - times[0]) / (times[2] - times[1])
+    return min(after - before for before, after in pairwise(times))
