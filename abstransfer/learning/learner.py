@@ -65,7 +65,7 @@ def q_learning(
         Discount, 0 <= gamma <= 1.
     q0 : float or ndarray of shape (S, A)
         Values to start from, within -1e290..1e290 as rewards.  A step adds at most
-        the largest reward r to the largest value: |Q| <= |q0| + 2^36 |r| < 1e301,
+        the largest reward r to the largest value: ``|Q| <= |q0| + 2^36 |r| < 1e301``,
         whatever alpha and gamma, and Q stays finite.
     start : ndarray of int
         States an episode starts in, all equally likely; by default, all states
