@@ -298,7 +298,7 @@ def test_the_still_picture_says_who_drives_best():
     caption = soup.find("figcaption").get_text()
     best = max(BETAS, key=lambda beta: scene.driving("source", beta))
 
-    assert f"the one at β = {best:g} drives best" in caption
+    assert f"that at β = {best:g} drives best" in caption
     assert f"{scene.driving('source', np.inf):.1f}".replace("-", "−") in caption
     assert len(soup.find_all("svg")) == 3
     named = [LABELS[a].replace("_", " ") for a in np.flatnonzero(scene.votes)]
