@@ -9,6 +9,7 @@ from support import ROOT
 from traitlets import TraitError
 
 from abstransfer.builders.deduced import absprob_pi, abstract_gradient
+from abstransfer.scenes.hill.still import RING
 from abstransfer.scenes.hill.widget import HALL, LAST, RHO, STARTS, Hill, advice
 
 LAND = "(probe.land)"
@@ -65,7 +66,7 @@ def test_the_still_picture_states_the_finding(start):
 
     assert len(set(still.frames)) == 3
     both = Hill(start=start, earlier=[[0.2, 0.6]]).still()
-    assert [frame.count("<circle") for frame in both.frames] == [1, 2, 2]
+    assert [frame.count(RING) for frame in both.frames] == [1, 2, 2]
     assert f"from {shown(climb.history[0])} to {shown(climb.history[-1])}" in (
         still.caption
     )
