@@ -8,12 +8,13 @@ module.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-STRATEGIES = ("hard", "soft")
+from ..learning.settings import STRATEGIES, choice, number, whole
+from ..mdp import LARGEST
+
 PAPER_STEPS = 30_000_000
 
 
@@ -85,28 +86,25 @@ def tau_cells(
 
 def check_arms(arms: Iterable[Arm]) -> tuple[Arm, ...]:
     """Return the arms; refuse by name what cannot be run, or told apart."""
-    arms = tuple(Arm(*arm) for arm in arms)
+    arms = tuple(map(_check_arm, arms))
     if not arms:
         raise ValueError("arms must hold at least one arm, got none")
-    for arm in arms:
-        if not re.fullmatch(r"[ !#-+\--~]+", str(arm.name)):  # plain in a table
-            raise ValueError(
-                f"the name of an arm must be a plain word (ASCII), got {arm.name!r}"
-            )
-        if arm.strategy not in STRATEGIES:
-            raise ValueError(
-                f"strategy of arm {arm.name!r} must be one of {STRATEGIES}, "
-                f"got {arm.strategy!r}"
-            )
-        if not float(arm.tau).is_integer() or arm.tau < 0:
-            raise ValueError(
-                f"tau of arm {arm.name!r} must be a whole number of steps, "
-                f"at least 0, got {arm.tau}"
-            )
-        if not math.isfinite(arm.hint):
-            raise ValueError(f"hint of arm {arm.name!r} must be finite, got {arm.hint}")
     keys = [(arm.name, arm.tau) for arm in arms]
     twice = next((key for key in keys if keys.count(key) > 1), None)
     if twice:
         raise ValueError(f"arms must differ in name or tau, got {twice} twice")
     return arms
+
+
+def _check_arm(arm: Arm) -> Arm:
+    if not isinstance(arm, Arm):
+        raise ValueError(f"arms must hold Arm records, got {arm!r}")
+    # Plain in a table: printed ASCII, no quote, no comma.
+    if not re.fullmatch(r"[ !#-+\--~]+", str(arm.name)):
+        raise ValueError(
+            f"the name of an arm must be a plain word (ASCII), got {arm.name!r}"
+        )
+    of = f"of arm {arm.name!r}"
+    choice(f"strategy {of}", arm.strategy, STRATEGIES)
+    number(f"hint {of}", arm.hint, -LARGEST, LARGEST)
+    return arm._replace(tau=whole(f"tau {of}", arm.tau))

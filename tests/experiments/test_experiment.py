@@ -269,7 +269,7 @@ def test_a_folder_of_another_experiment_is_refused_by_name(
         ({"guides": {"x": np.ones((7, 8))}}, "guide .x. is none: .* shape"),
         (
             {"arms": (Arm("x", None, "hard", 0, float("inf")),)},
-            "hint of arm 'x' must be finite, got inf",
+            "hint of arm 'x' must be a number from .*, got inf",
         ),
     ],
 )
