@@ -166,8 +166,8 @@ def tasks_in_parts(maps, *, states=10_000, **options) -> Iterator[NavigationTask
     """
     Yield the tasks of one map or of several, a few at a time.
 
-    Each part is a union of its own, closed when it has `states` states or more; a
-    part that is not kept is forgotten, so a large building takes the memory of one.
+    Each part is a union of its own, of about `states` states and one task at least;
+    what is not kept is forgotten, so a large building takes the memory of one part.
     The union of all is block-diagonal: values of the parts are values of the union.
     Options are those of :func:`navigation_tasks`.
 

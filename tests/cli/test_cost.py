@@ -50,7 +50,7 @@ def test_too_little_memory_ends_with_a_message_and_code_2(monkeypatch, capsys):
     def full(*arguments):
         raise MemoryError
 
-    monkeypatch.setattr("abstransfer.cli.read_map", full)
+    monkeypatch.setattr("abstransfer.cli.table1.read_map", full)
 
     assert main(["table1"]) == 2
     assert "not enough memory" in capsys.readouterr().err
