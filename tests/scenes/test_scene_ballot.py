@@ -212,7 +212,8 @@ def test_ends_quick_changes_and_reset(ballot):
     assert f"At β = 0.50 the whole advice is worth {wanted}" in ballot.root.inner_text()
     ballot.url_with("ballot.beta=0.5")
 
-    assert max(ballot.writes_by_moves('[max="8.25"]', 0.75)) < 50
+    moves = ballot.writes_by_moves('[max="8.25"]', 0.75)
+    assert max(moves) < SMALL.n_cells, "a chart is drawn anew, and no building"
     ballot.click("Reset")
     assert ballot.closing == ""
     assert "1.00 (Prob)" in ballot.root.inner_text()
