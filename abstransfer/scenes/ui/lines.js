@@ -57,6 +57,22 @@ function range(values, { min, max }) {
   return [low, high];
 }
 
+/**
+ * Give an element these children, and keep those that are there already: a cursor that
+ * moves leaves the curves alone.
+ *
+ * @param {Element} parent
+ * @param {Element[]} children
+ */
+function replaceWhatDiffers(parent, children) {
+  const old = [...parent.children];
+  children.forEach((child, i) => {
+    if (!old[i]) parent.append(child);
+    else if (!old[i].isEqualNode(child)) old[i].replaceWith(child);
+  });
+  old.slice(children.length).forEach((child) => child.remove());
+}
+
 /** @param {{ label: string, x?: Axis, y?: Axis, height?: number }} options */
 export function lineChart({ label, x = {}, y = {}, height = 260 }) {
   const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
@@ -146,7 +162,7 @@ export function lineChart({ label, x = {}, y = {}, height = 260 }) {
     }
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.style.height = `${height}px`;
-    svg.replaceChildren(...parts);
+    replaceWhatDiffers(svg, parts);
   }
   const title = make("p", { class: "ab-ylabel" }, y.label);
   return {
