@@ -11,6 +11,7 @@ import yaml
 ROOT = Path(__file__).parents[1]
 ELSEWHERE = re.compile("^(?!file:)")  # addresses that are no files
 HTML = ROOT / "build" / "_build" / "html"
+PATIENCE = 240  # seconds until what a page does must be there, on a busy machine too
 FLAGS = (
     "--no-sandbox",
     "--disable-gpu",
@@ -59,12 +60,21 @@ class Visit:
         self.problems = []  # requests that left the machine, errors of scripts
         context.route(ELSEWHERE, self._refuse)
         self.page = context.new_page()
+        self.page.set_default_timeout(1000 * PATIENCE)
         self.page.on("pageerror", lambda error: self.problems.append(str(error)))
         self.page.on("console", self._note)
 
     def open(self, name, query=""):
         self.page.goto((self.folder / f"{name}.html").as_uri() + query)
         return self.page
+
+    def is_idle(self, seconds=10):
+        """Whether no worker is left; a tab hears of their end a little later."""
+        for _ in range(20 * seconds):
+            if not self.page.workers:
+                return True
+            self.page.wait_for_timeout(50)
+        return False
 
     def _refuse(self, route):
         self.problems.append(f"asked the network for {route.request.url}")

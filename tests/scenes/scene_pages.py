@@ -14,7 +14,7 @@ from pathlib import Path
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
-from support import ROOT
+from support import PATIENCE, ROOT
 
 from abstransfer import scenes
 
@@ -57,7 +57,7 @@ def build(folder: Path, html: Path) -> None:
         [tool, "build", book, *paths, "-W", "-n", "--keep-going"],
         capture_output=True,
         encoding="utf-8",
-        timeout=120,
+        timeout=PATIENCE,
     )
     assert run.returncode == 0, run.stdout[-3000:] + run.stderr[-3000:]
 
@@ -71,7 +71,7 @@ def scene_pages(tmp_path_factory):
     try:
         folder.mkdir()
     except FileExistsError:  # another worker builds it
-        for _ in range(900):
+        for _ in range(10 * PATIENCE):
             if done.exists():
                 return html
             time.sleep(0.1)

@@ -104,6 +104,9 @@ class SceneTab:
     def problems(self):
         return self.visit.problems
 
+    def is_idle(self, *seconds):
+        return self.visit.is_idle(*seconds)
+
     def settle(self):
         self.page.evaluate(FRAMES)
         return self

@@ -14,7 +14,9 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 from playwright.sync_api import expect
-from support import unavailable
+from support import PATIENCE, unavailable
+
+expect.set_options(timeout=1000 * PATIENCE)
 
 CELL = "from abstransfer import scenes\n\n{0} = scenes.{0}()\n{0}"
 SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to push
@@ -77,7 +79,7 @@ def lab(tmp_path_factory):
 
 
 def wait_for(url, server, log):
-    for _ in range(300):
+    for _ in range(10 * PATIENCE):
         if server.poll() is not None:
             said = log.read_text(encoding="utf-8")[-500:]
             unavailable(f"JupyterLab did not start: {said}")
@@ -101,15 +103,16 @@ def page(lab, chromium):
         lambda route: (elsewhere.append(route.request.url), route.abort()),
     )
     page = context.new_page()
+    page.set_default_timeout(1000 * PATIENCE)
     page.on("pageerror", lambda error: problems.append(str(error)))
     page.goto(lab)
-    page.locator(".jp-CodeCell").last.wait_for(timeout=60_000)
-    page.get_by_text("| Idle").wait_for(timeout=60_000)
+    page.locator(".jp-CodeCell").last.wait_for()
+    page.get_by_text("| Idle").wait_for()
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    page.get_by_text("| Idle").wait_for(timeout=60_000)
+    page.get_by_text("| Idle").wait_for()
     for number in range(len(SCENES)):
-        scene_of(page, number).wait_for(timeout=60_000)
+        scene_of(page, number).wait_for()
     yield page
     assert problems == []
     assert elsewhere == []
@@ -133,7 +136,7 @@ def run_last_cell(page, code):
     page.keyboard.type(code)
     page.keyboard.press("Control+Enter")
     output = cell.locator(".jp-OutputArea-output", has_text="said")
-    output.wait_for(timeout=20_000)
+    output.wait_for()
     return output.inner_text().strip()
 
 

@@ -5,6 +5,7 @@ import json
 import pytest
 from run_scenes import SHORT, python_run
 from scene_tab import COUNTED, bare
+from support import PATIENCE
 
 from abstransfer.experiments.arms import TAUS
 from abstransfer.scenes import TauSlider
@@ -94,7 +95,7 @@ def test_thirty_million_steps_are_the_stored_ones(show):
     widget = TauSlider(tau=3_500_000)
     scene = show(bare(TauSlider, tau=3_500_000)).wait("(hard)", ".ab-body > p")
 
-    assert scene.is_idle(20)
+    assert scene.is_idle(PATIENCE)
     assert scene.column("Q-learning") == widget.learn(widget.arm(None)).tolist()
     assert scene.column("hard") == widget.learn(widget.arm("hard")).tolist()
     assert scene.problems == []

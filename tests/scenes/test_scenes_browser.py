@@ -414,14 +414,6 @@ LEARN = """() => {
 }"""
 
 
-def wait_until_no_worker(page):
-    for _ in range(100):
-        if not page.workers:
-            return
-        page.wait_for_timeout(30)
-    pytest.fail("a worker goes on")
-
-
 def test_curves_grow_and_leaving_stops_the_worker(at_scenes):
     tab = at_scenes()
     tab.page.evaluate(probe())
@@ -435,12 +427,12 @@ def test_curves_grow_and_leaving_stops_the_worker(at_scenes):
 
     assert tab.page.evaluate("job.finished") is False
     assert tab.page.locator(".ab-chart").count() == 0
-    wait_until_no_worker(tab.page)
+    assert tab.is_idle()
 
     tab.page.evaluate(LEARN)
     tab.page.wait_for_function("points.length > 3")
     tab.page.goto("about:blank")
-    wait_until_no_worker(tab.page)
+    assert tab.is_idle()
     assert tab.problems == []
 
 
