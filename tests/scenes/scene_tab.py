@@ -116,14 +116,6 @@ class SceneTab:
         self.page.evaluate(GO, hash_)
         return self.settle()
 
-    def is_idle(self, seconds=10):
-        """Whether no worker is left; a tab hears of their end a little later."""
-        for _ in range(20 * seconds):
-            if not self.page.workers:
-                return True
-            self.page.wait_for_timeout(50)
-        return False
-
     def wait_for_worker(self):
         while not self.page.workers:
             self.page.wait_for_timeout(20)
