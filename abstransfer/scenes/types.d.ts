@@ -188,7 +188,7 @@ export interface Scene {
   betResult: (name: string, truth: string) => string;
   bets: Record<string, Record<string, string>>;
   say: (sentence: string) => void;
-  warn: (problems: Record<string, string>) => void;
+  warn: (problems: Record<string, string>, sorry: string) => void;
   close: (sentence: string | false) => void;
   twin: (f: () => Table) => void;
 }

@@ -65,6 +65,68 @@ def test_no_odd_value_of_any_field_stops_a_scene(open_scene, name):
     assert tab.problems == []
 
 
+# A scene that starts with n = start, and fails, built or drawn, where n is 5.
+FAILS = """([at, start, options]) => {
+    const fail = (state) => { if (state.n === 5) throw new Error("five"); };
+    const spec = {
+        title: "A test",
+        fields: { n: { start, kind: "whole", bounds: [0, 9], isLocal: false } },
+        state: { n: start },
+        limits: { n: [0, 9] },
+        local: [],
+        build(scene) {
+            scene.onLeave(() => left++);
+            if (at === "build") fail(scene.state);
+            scene.add(scene.slider("n", { label: "Number" }));
+            return fail;
+        },
+    };
+    const div = document.body.appendChild(document.createElement("div"));
+    div.id = "fails";
+    window.left = 0;
+    try {
+        window.fails = probe.mount(div, "fails", spec, options);
+        return "";
+    } catch (error) {
+        return error.message;
+    }
+}"""
+
+
+@pytest.mark.parametrize(
+    "asked", ["by the page, built", "by the page, drawn", "by an address"]
+)
+def test_a_state_in_which_a_scene_fails_gives_the_start_and_a_sentence(
+    open_scene, asked
+):
+    query = "#fails.n=5" if asked == "by an address" else ""
+    tab = open_scene(bare(Microscope), query=query)
+    options = {} if query else {"n": 5}
+    at = "build" if "built" in asked else "draw"
+    assert tab.ask(FAILS, [at, 3, options]) == ""
+    tab.settle()
+
+    root = tab.page.locator("#fails")
+    sentence = "What was asked for cannot be shown: the scene began at its start."
+    assert root.locator(".ab-scene").count() == 1
+    assert root.get_by_role("slider").input_value() == "3"
+    assert root.get_by_text(sentence).first.is_visible()
+    assert tab.page.evaluate("left") == 1, "what was half built is gone"
+    root.get_by_role("button", name="Reset").click()
+    tab.settle()
+    assert not root.locator(".ab-now").is_visible()
+    assert tab.problems == []
+
+
+def test_a_scene_that_fails_at_its_start_leaves_nothing(open_scene):
+    tab = open_scene(bare(Microscope))
+
+    assert tab.ask(FAILS, ["draw", 5, {}]) == "five"
+    assert tab.page.locator("#fails > *").count() == 0
+    assert tab.page.locator("#fails").get_attribute("data-ab-id") is None
+    assert tab.problems == []
+
+
 @pytest.mark.parametrize("name", ["race", "ballot", "ripple", "tau"])
 def test_a_map_that_is_none_leaves_the_start_and_a_sentence(open_scene, name):
     tab = open_scene(bare(KINDS[name]), query=f"#{name}.map=no%20map")

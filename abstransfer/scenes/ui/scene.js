@@ -10,6 +10,7 @@ import { dropBets, shell as makeShell } from "./texts.js";
 /** @import { Own, Scene, Spec, State } from "../types.d.ts" */
 
 const PAUSE = 400; // milliseconds between two changes of the URL
+const SORRY = "What was asked for cannot be shown: the scene began at its start.";
 
 /**
  * Define the one scene of a bundle: hand its `render` to the widget, or let it live in
@@ -65,6 +66,9 @@ function idOf(element, name) {
  * Mount a scene.  `onChange(changes)` hears of each change made in the page;
  * `url: false` keeps the state out of the address.
  *
+ * A scene that fails in a state that an address or Python asks for is mounted again as
+ * it is at the start, and says so; one that fails at its start throws.
+ *
  * @param {HTMLElement} element
  * @param {string} name
  * @param {Spec} spec
@@ -72,6 +76,25 @@ function idOf(element, name) {
  * @param {{ onChange?: (changes: State) => void, url?: boolean }} more
  */
 export function mount(element, name, spec, options = {}, { onChange, url = true } = {}) {
+  try {
+    return mountOnce(element, name, spec, options, { onChange, url });
+  } catch (error) {
+    console.warn(error);
+    return mountOnce(element, name, spec, {}, { onChange, url, sorry: SORRY });
+  }
+}
+
+/**
+ * `sorry`, if there is any, is said until a reset or another address; the address of
+ * now is not read then.
+ *
+ * @param {HTMLElement} element
+ * @param {string} name
+ * @param {Spec} spec
+ * @param {State} options
+ * @param {{ onChange?: (changes: State) => void, url: boolean, sorry?: string }} more
+ */
+function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) {
   const id = idOf(element, name);
   const store = address.makeState(spec, options);
   const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
@@ -97,11 +120,11 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
     if (paint && !isLeft) frame ??= requestAnimationFrame(drawNow);
   }
   function drawNow() {
-    frame = null;
+    frame = cancelAnimationFrame(frame) ?? null;
     const names = new Set(changed);
     changed.clear();
     paint(store.values, names);
-    me.warn(store.problems);
+    me.warn(store.problems, sorry);
     for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
   }
   function stop() {
@@ -152,6 +175,8 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
   function reset() {
     stop();
     dropBets(me);
+    sorry = "";
+    redraw();
     note(store.set(store.start), true);
     me.say("The scene is as it was at the start.");
   }
@@ -159,6 +184,7 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
   function fromUrl() {
     const found = url && address.fromUrl(id, spec);
     if (found || (url && !location.hash)) {
+      sorry = "";
       note(store.set({ ...linkable(store.start), ...found }), true);
       redraw(); // there may be something to say of what was refused
     }
@@ -182,11 +208,17 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
   }
 
   const shell = makeShell(me, body, reset);
-  bind(me);
-  paint = spec.build(me);
-  const linked = fromUrl();
-  element.append(shell);
-  drawNow();
+  let linked = null;
+  try {
+    bind(me);
+    paint = spec.build(me);
+    linked = sorry ? null : fromUrl();
+    element.append(shell);
+    drawNow();
+  } catch (error) {
+    leave();
+    throw error;
+  }
   element.classList.add("ab-live"); // hides the still picture, but in print
   addEventListener("hashchange", fromUrl);
   addEventListener("pagehide", stop);

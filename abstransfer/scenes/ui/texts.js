@@ -58,10 +58,10 @@ export function shell(scene, body, reset) {
     if (text) scene.say(text);
   };
 
-  // Say which values were refused, and why; read aloud when it changes.
-  scene.warn = (problems) => {
+  // Say that a state was refused, which values were, and why; read aloud when it changes.
+  scene.warn = (problems, sorry) => {
     const all = Object.entries(problems).map(([name, why]) => `“${name}” stays as it was: ${why}.`);
-    const text = all.join(" ");
+    const text = [sorry, ...all].filter(Boolean).join(" ");
     if (text === warning.textContent) return;
     warning.textContent = text;
     warning.hidden = !text;
