@@ -182,17 +182,6 @@ def test_by_keyboard_alone_to_the_end(show, race):
     scene.wait("You bet on", "[aria-live]")
 
 
-def test_thirty_million_steps_are_the_stored_ones(show):
-    race = Race()
-    scene = show(race).bet("I do not bet: show me")
-    learned(scene)
-
-    for arm in race.arms:
-        name = NAMES[arm.guide or "none"]
-        assert scene.column(name) == race.learn(arm).tolist()
-    assert "You bet" not in scene.closing
-
-
 def test_an_own_policy_races_too(show):
     tasks = target_tasks(Race().problem)
     wise = tasks.possible * 1.0

@@ -92,6 +92,7 @@ def test_any_tau_has_pythons_numbers(show, slider, guide, text):
 
 
 def test_thirty_million_steps_are_the_stored_ones(show):
+    """The one whole run in a browser: all others show on short ones that they agree."""
     widget = TauSlider(tau=3_500_000)
     scene = show(bare(TauSlider, tau=3_500_000)).wait("(hard)", ".ab-body > p")
 
