@@ -4,7 +4,7 @@
 import { armStyle, drawn, make, marker, number } from "../ui/dom.js";
 import { spread } from "../ui/lines.js";
 
-const [TOP, BOTTOM, LEFT, RIGHT, LINE, SIZE] = [34, 12, 142, 118, 16, 6];
+const [TOP, BOTTOM, LEFT, RIGHT, LINE, SIZE] = [34, 12, 142, 130, 16, 6];
 const ASIDE = 2 * SIZE; // how far a mark steps that would cover another
 const LABEL = 22;
 const GLIDE = 400; // milliseconds
