@@ -60,7 +60,7 @@ book: .venv/.book
 test: .venv/.book system
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/python -m abstransfer.scenes.bundle
+	$(BIN)/python abstransfer/scenes/bundle.py
 	$(DENO) fmt --check
 	$(DENO) lint
 	$(DENO) check abstransfer/scenes
