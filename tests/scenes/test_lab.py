@@ -140,19 +140,26 @@ def run_last_cell(page, code):
     return output.inner_text().strip()
 
 
+def wait_until_said(page, code, wanted):
+    """Run a line until it says what is wanted: a change is on its way to Python."""
+    for _ in range(40):
+        if (said := run_last_cell(page, code)) == wanted:
+            return
+    assert said == wanted
+
+
 @pytest.mark.parametrize("name", SLIDERS)
 def test_the_browser_and_python_share_the_state_of_a_scene(page, name):
     label, trait, moved, pushed = SLIDERS[name]
     slider = scene_of(page, SCENES.index(name)).get_by_role("slider", name=label)
 
     slider.fill(str(moved))
-    page.wait_for_timeout(500)  # the change is on its way
+    wait_until_said(page, f"print('said', {name}.{trait})", f"said {moved}")
     slider.press("ArrowLeft")  # JupyterLab must not take it for a command
     expect(slider).not_to_have_value(str(moved))
     slider.press("ArrowRight")
     expect(slider).to_have_value(str(moved))
-    page.wait_for_timeout(500)
-    assert run_last_cell(page, f"print('said', {name}.{trait})") == f"said {moved}"
+    wait_until_said(page, f"print('said', {name}.{trait})", f"said {moved}")
 
     assert run_last_cell(page, f"{name}.{trait} = {pushed}; print('said so')")
     expect(slider).to_have_value(str(pushed))
@@ -162,9 +169,8 @@ def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page):
     scene = scene_of(page, SCENES.index("Studio"))
 
     scene.get_by_role("button", name="The target").click()
-    page.wait_for_timeout(500)
-    said = run_last_cell(page, "print('said', repr(Studio.map))")
-    assert said == "said Map(18 x 30 cells, 35 rooms, 35 goals)"
+    target = "said Map(18 x 30 cells, 35 rooms, 35 goals)"
+    wait_until_said(page, "print('said', repr(Studio.map))", target)
 
     assert run_last_cell(page, "Studio.map = 'source'; print('said so')")
     expect(scene.get_by_text("135 cells").first).to_be_visible()
