@@ -164,7 +164,7 @@ def _parse(table: bytes, record: Mapping) -> Results:
         raise ValueError("more goals than steps, or fewer than none")
     if text != _text(arms, goals):
         raise ValueError("rows are not those of the experiment, one after another")
-    return Results(arms, goals, dict(record))
+    return Results(arms, goals, {k: v for k, v in record.items() if k != "sha256"})
 
 
 def _table(results: Results) -> bytes:
