@@ -82,7 +82,10 @@ def bundled(name: str) -> str:
     """Return the bundle of a scene, or of its workers; make it first if need be."""
     if not is_fresh() and (problem := _problem(digest())):
         raise BundleError(problem)
-    return (BUNDLES / f"{name}.js").read_text("utf-8")
+    path = BUNDLES / f"{name}.js"
+    if not path.is_file():
+        raise BundleError(f"there is no script scenes/{name}/{name}.js to bundle")
+    return path.read_text("utf-8")
 
 
 @cache

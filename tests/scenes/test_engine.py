@@ -71,7 +71,7 @@ def test_the_front_end_without_a_page(path, tmp_path):
 
 def test_every_script_imports_only_what_is_below_it():
     order = [["python"], ["engine"], ["ui"], ["parts"]]
-    order.append(bundle.scenes())
+    order.append([*bundle.scenes(), "_template"])
     ranks = {name: rank for rank, names in enumerate(order) for name in names}
     for path in bundle.sources():
         place = path.relative_to(bundle.FOLDER)

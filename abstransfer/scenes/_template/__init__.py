@@ -1,0 +1,1 @@
+"""A scene to copy; README.md, one folder up, says how."""
