@@ -62,7 +62,9 @@ _ROOMS = [
     "exercises",
 ]
 __getattr__, __dir__, _ = lazy_loader.attach(
-    __name__, submodules=_ROOMS, submod_attrs=_CORE | {"learning": _LEARNING}
+    __name__,
+    submodules=[*_CORE, *_ROOMS],
+    submod_attrs=_CORE | {"learning": _LEARNING},
 )
 
 __all__ = [

@@ -24,6 +24,13 @@ def test_public_names_are_named_once():
     assert len(names) == len(set(names))
 
 
+@pytest.mark.parametrize("module", abstransfer._CORE)
+def test_a_module_of_the_core_is_there_before_a_name_of_it_is_used(module):
+    code = f"import abstransfer as at; at.{module}.__doc__.strip()"
+
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
 @pytest.mark.parametrize("room", abstransfer._ROOMS)
 def test_a_room_has_the_names_that_it_lists(room):
     module = getattr(abstransfer, room)
