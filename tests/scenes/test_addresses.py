@@ -60,7 +60,7 @@ def test_no_odd_value_of_any_field_stops_a_scene(open_scene, name):
         for odd in ODD[field["kind"]]
     ]
 
-    assert len(cases) > 15
+    assert cases
     assert tab.page.evaluate(TRY, [name, cases]) == []
     assert tab.problems == []
 

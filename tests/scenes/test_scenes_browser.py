@@ -441,5 +441,5 @@ def test_all_scenes_live_on_one_page(open_scene):
     kinds = [kind for kind in kinds if getattr(kind, "scene", "")]
     tab = open_scene("".join(bare(kind) for kind in kinds))
 
-    assert tab.page.locator(".ab-live").count() == len(kinds) == 12
+    assert tab.page.locator(".ab-live").count() == len(kinds) >= 12
     assert tab.problems == []
