@@ -126,6 +126,8 @@ class Together:
 @cache
 def say_if_compiling() -> None:
     """Say on stderr that the first call takes longer, where no cache is found."""
+    if "ipykernel" in sys.modules:  # a notebook shows that it works, and stores words
+        return
     stats = getattr(_fast.advance_one, "stats", None)  # none where numba is disabled
     if stats and not any(Path(stats.cache_path).glob("_fast.advance_*.nbi")):
         print(

@@ -508,10 +508,10 @@ def test_the_first_call_says_that_it_compiles(tmp_path):
         "q_learning(mdp, 5, rng=0); q_learning(mdp, 5, rng=0)"
     )
 
-    def stderr():
+    def stderr(code=code, cache="cache"):
         return subprocess.run(
             [sys.executable, "-c", code],
-            env={"NUMBA_CACHE_DIR": str(tmp_path)},
+            env={"NUMBA_CACHE_DIR": str(tmp_path / cache)},
             capture_output=True,
             encoding="utf-8",
             check=True,
@@ -519,6 +519,10 @@ def test_the_first_call_says_that_it_compiles(tmp_path):
 
     assert stderr().count("compiling the learning loops") == 1
     assert stderr() == ""
+    in_a_notebook = 'import sys; sys.modules["ipykernel"] = sys;' + code
+    assert stderr(in_a_notebook, "another") == "", (
+        "a page of a fresh clone is as stored"
+    )
 
 
 def test_runs_that_start_from_tables_of_their_own_are_those_of_q0():
