@@ -38,7 +38,7 @@ def interrupt(name, seconds, folder):
         [sys.executable, "-m", "abstransfer", *arguments],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
         start_new_session=True,
     )
     time.sleep(seconds)
