@@ -1,9 +1,18 @@
 """The built book and a browser without a network, for the tests that need them."""
 
+import signal
+
 import pytest
 from support import FLAGS, HTML, Tabs, unavailable
 
 from abstransfer.cli.doctor import check_browser
+
+
+@pytest.fixture(autouse=True, scope="session")
+def interruptible():
+    """Python hears Ctrl-C, also where a shell started it in the background."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
