@@ -16,7 +16,7 @@ V       ``v``                 (S,), expected discounted reward
 Q       ``q``                 (S, A), expected V of the state reached
 ======  ====================  =================================================
 
-The names below stand in the order of the pages.  Each is loaded when it is first
+Names stand in the order of the pages.  Each is loaded when it is first
 used, so that a command line can answer Ctrl-C before anything is.
 """
 
