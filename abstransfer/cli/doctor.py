@@ -10,8 +10,8 @@ import json
 import os
 import re
 import shutil
+import subprocess
 import sys
-import tempfile
 from importlib import metadata
 from pathlib import Path
 from typing import NamedTuple
@@ -24,7 +24,11 @@ BROWSERS = (
     r"C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe",
 )
 INSTALL = 'pip install -c constraints.txt -e ".[test]"'
-
+ASK = (
+    "import sys; sys.path.insert(0, sys.argv[1]);"
+    "from abstransfer.learning._rng import fill;"
+    "print(fill.stats.cache_path or '' if hasattr(fill, 'stats') else '')"
+)
 
 HELP = "is this machine ready, and what to do if not"
 DESCRIPTION = "Check versions, kernel and browser."
@@ -100,16 +104,23 @@ def check_kernel() -> Check:
     return _check("jupyter kernel", place.is_file(), found, INSTALL)
 
 
-def check_cache() -> Check:
-    """Say whether compiled loops can be kept; else they compile at each start."""
-    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parent)
-    remedy = "set NUMBA_CACHE_DIR to an existing folder you may write to"
-    ok = True
+def check_cache(patience: float = 60) -> Check:
+    """Say where compiled loops are kept; else they compile at each start."""
+    remedy = "set NUMBA_CACHE_DIR to a folder you may write to; it is made"
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
+        remedy = "unset NUMBA_DISABLE_JIT: uncompiled, learning takes hours"
+    # Another process asks the compiler: on some systems it waits for ever.
+    asking = [sys.executable, "-c", ASK, str(Path(__file__).parents[2])]
+    told = {"stdin": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     try:
-        tempfile.TemporaryFile(dir=folder).close()
-    except OSError:
-        ok = False
-    return _check("compiled code", ok, str(folder), remedy)
+        place = subprocess.check_output(
+            asking, **told, encoding="utf-8", timeout=patience
+        ).strip()
+    except subprocess.TimeoutExpired:
+        place = ""
+    except subprocess.CalledProcessError:  # the package cannot be imported
+        place, remedy = "", INSTALL
+    return _check("compiled code", bool(place), place or "nothing", remedy)
 
 
 def check_browser() -> Check:

@@ -14,11 +14,31 @@ ACM Transactions on Mathematical Software 47(4).
 
 from __future__ import annotations
 
+from functools import partial
+from hashlib import sha256
+from pathlib import Path
+
 import numpy as np
 from numba import njit
 
-compiled = njit(cache=True, nogil=True)  # of every loop, here and in other files
-inlined = njit(cache=True, nogil=True, forceinline=True)  # and of their parts
+# A loop holds what it calls, in whatever file that is: one stamp for all of them.
+SOURCES = sorted(Path(__file__).parent.glob("*.py"))
+STAMP = sha256(b"".join(map(Path.read_bytes, SOURCES))).digest()
+
+
+def compiled(function, **options):
+    """Compile a loop when it is first called; keep it where a folder can be written."""
+    made = njit(nogil=True, **options)(function)
+    if made is not function:  # else numba is told to compile nothing
+        try:
+            made.enable_caching()
+        except RuntimeError:  # nowhere: it is compiled at each start
+            return made
+        made._cache._cache_file._source_stamp = STAMP  # numba's own: of one file
+    return made
+
+
+inlined = partial(compiled, forceinline=True)  # for the parts of a loop
 
 WORD = 0xFFFFFFFF  # the largest word
 STEPS, STARTS = 0, 1  # rows of the state of a run

@@ -5,6 +5,7 @@ Runs on their way: what the loops read and write, and which loop takes which ste
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -12,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _fast, loop
-from ._rng import STARTS, next_word, seed_state
+from ._rng import STAMP, STARTS, next_word, seed_state
 from ._simd import WIDTH
 from ._tables import FastGuide, Tables, make_guide, pack, pack_guide
 from .settings import Settings
@@ -128,12 +129,24 @@ def say_if_compiling() -> None:
     """Say on stderr that the first call takes longer, where no cache is found."""
     if "ipykernel" in sys.modules:  # a notebook shows that it works, and stores words
         return
-    stats = getattr(_fast.advance_one, "stats", None)  # none where numba is disabled
-    if stats and not any(Path(stats.cache_path).glob("_fast.advance_*.nbi")):
-        print(
-            "abstransfer: compiling the learning loops, once; it takes some seconds",
-            file=sys.stderr,
+    stats = getattr(_fast.advance_one, "stats", None)
+    if stats is None:
+        text = "numba is disabled: learning takes a thousand times as long"
+    elif stats.cache_path is None:
+        text = (
+            "compiling the learning loops, at each start: no folder to keep them in"
+            " can be written; set NUMBA_CACHE_DIR to one"
         )
+    elif any(STAMP in path.read_bytes() for path in _kept(stats.cache_path)):
+        return
+    else:
+        text = "compiling the learning loops, once; it takes some seconds"
+    print(f"abstransfer: {text}", file=sys.stderr)
+
+
+def _kept(folder: str) -> Iterator[Path]:
+    """Return the files that say which of the fast loops are kept."""
+    return Path(folder).glob("_fast.advance_*.nbi")
 
 
 def _aligned(shape: tuple[int, int]) -> np.ndarray:
