@@ -21,22 +21,28 @@ from pathlib import Path
 import nbformat
 
 BOOK = Path(__file__).parents[1] / "book"
-OPEN = "# An open exercise, without a check: your code"
+OPEN = """\
+# An open exercise, without a check: your code.
+# at.exercises.check("{key}") gives a hint."""
 MARK = re.compile(r"#\s*blank\s*$", re.MULTILINE)
 BARE_TWICE = re.compile(r"^( *)\.\.\.(?:\n\1\.\.\.)+$", re.MULTILINE)
-START = re.compile(r"^(`{3,})\{solution-start\}[^\n]*\n(?::[^\n]*\n)*\1[^\S\n]*$", re.M)
+START = re.compile(
+    r"^(`{3,})\{solution-start\} *(\S*)[^\n]*\n(?::[^\n]*\n)*\1[^\S\n]*$", re.M
+)
 END = re.compile(r"^(`{3,})\{solution-end\}[^\S\n]*\n\1[^\S\n]*$", re.M)
 
 
 def student_edition(notebook):
     """Return a copy of a notebook for students."""
     notebook = copy.deepcopy(notebook)
-    cells, in_solution, has_blank = [], False, False
+    cells, in_solution, has_blank, key = [], False, False, ""
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             if in_solution and not has_blank and END.search(cell.source):
-                cells.append(nbformat.v4.new_code_cell(OPEN, id=f"open-{cell.id}"))
-            has_blank &= not START.search(cell.source)
+                text = OPEN.format(key=key)
+                cells.append(nbformat.v4.new_code_cell(text, id=f"open-{cell.id}"))
+            for start in START.finditer(cell.source):
+                key, has_blank = start[2], False
             cell.source, in_solution = without_solutions(cell.source, in_solution)
             keep = bool(cell.source)
         elif in_solution:

@@ -7,6 +7,24 @@ are data in the module of that page; nothing here is loaded by
 """
 
 from ._check import Reply, check
-from ._model import Exercise, Wrong, all_exercises, exercises_of
+from ._model import (
+    Exercise,
+    Open,
+    Wrong,
+    all_exercises,
+    all_open_exercises,
+    exercises_of,
+    open_exercises_of,
+)
 
-__all__ = ["Exercise", "Reply", "Wrong", "all_exercises", "check", "exercises_of"]
+__all__ = [
+    "Exercise",
+    "Open",
+    "Reply",
+    "Wrong",
+    "all_exercises",
+    "all_open_exercises",
+    "check",
+    "exercises_of",
+    "open_exercises_of",
+]

@@ -2,7 +2,7 @@
 
 import inspect
 
-from . import all_exercises
+from . import all_exercises, all_open_exercises
 
 for exercise in all_exercises():
     print(f"{exercise.key}  {exercise.task}")
@@ -11,3 +11,8 @@ for exercise in all_exercises():
     for number, hint in enumerate(exercise.hints, 1):
         print(f"    {number}. {hint}")
     print("    knows:", "; ".join(wrong.name for wrong in exercise.wrong))
+for exercise in all_open_exercises():
+    print(f"{exercise.key}  (open)")
+    for number, hint in enumerate(exercise.hints, 1):
+        print(f"    {number}. {hint}")
+    print("    a good answer holds:", exercise.good)

@@ -9,7 +9,16 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from ._functions import judge_function, must_be_callable, outcomes, solution_of
-from ._model import Exercise, Verdict, all_exercises, exercises_of, page_of
+from ._model import (
+    Exercise,
+    Open,
+    Verdict,
+    all_exercises,
+    all_open_exercises,
+    exercises_of,
+    open_exercises_of,
+    page_of,
+)
 from ._read import SIGNS, Unreadable, short
 from ._run import Heard, run
 from ._values import judge_value, readings
@@ -55,15 +64,15 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
     key : str
         The id of the exercise, such as ``"ex-3-1"``.
     answer : number, array, str or function
-        Without one, the next of three hints is given.
+        Without one, the next hint is given, also of an open exercise.
 
     Returns
     -------
     Reply
         It prints itself, and is true if the answer is right.  Its `verdict` is
         "right", "nearly" (right, but rounded too far), "not yet", "hint", "no answer
-        yet" (it cannot be judged) or "not checked" (there is no such exercise).  A
-        usual wrong answer is named; another one gets the next hint.
+        yet" (it cannot be judged) or "not checked" (it is open, or there is no such
+        exercise).  A usual wrong answer is named; another one gets the next hint.
 
     Raises
     ------
@@ -92,11 +101,16 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
             'key must be the id of an exercise, a text such as "ex-3-1"; '
             f"it was of type {type(key).__name__}"
         )
-    exercise = exercises_of(page_of(key) or 0).get(key)
+    page = page_of(key)
+    known = {} if page is None else open_exercises_of(page) | exercises_of(page)
+    exercise = known.get(key)
     if exercise is None:
         return Reply(short(key, 40), "not checked", _unknown(key))
     if answer is NOT_GIVEN:
         return Reply(key, "hint", _next_hint(exercise))
+    if isinstance(exercise, Open):
+        words = f"An open exercise has no check. A good answer holds: {exercise.good}."
+        return Reply(key, "not checked", words)
     try:
         verdict = _judge(exercise, answer)
     except Unreadable as reason:
@@ -136,7 +150,7 @@ def _told(printed: str) -> str:
     return f" It printed: `{short(printed)}`" if printed.strip() else ""
 
 
-def _next_hint(exercise: Exercise) -> str:
+def _next_hint(exercise: Exercise | Open) -> str:
     tries = _tries.setdefault(exercise.key, Tries())
     tries.hints = min(tries.hints + 1, len(exercise.hints))
     hint = exercise.hints[tries.hints - 1]
@@ -144,16 +158,9 @@ def _next_hint(exercise: Exercise) -> str:
 
 
 def _unknown(key: str) -> str:
-    on_page = ", ".join(exercises_of(page_of(key) or 0))
-    if on_page:
-        return (
-            "No answer is stored under this name. An open exercise has no check: "
-            "compare with its solution, or with a neighbor. Checked on this page: "
-            f"{on_page}."
-        )
     words = "There is no such exercise"
     meant = re.sub(r"[\s._-]+", "-", key[:40].strip().translate(SIGNS).lower())
-    known = [exercise.key for exercise in all_exercises()]
+    known = [e.key for e in (*all_exercises(), *all_open_exercises())]
     nearest = difflib.get_close_matches(meant, known, n=1)
     if nearest:
         words += f'. Did you mean "{nearest[0]}"?'

@@ -102,6 +102,14 @@ def _plain(value) -> float | str | None:
     return float(value) if np.isfinite(value) else str(float(value))
 
 
+class Open(NamedTuple):
+    """An open exercise: nothing can judge it, but hints and a measure can be given."""
+
+    key: str
+    hints: tuple[str, ...]  # general, closer, ...
+    good: str  # what a good answer holds
+
+
 def value(key, task, solution, *, hints, wrong, **options) -> Exercise:
     """Return an exercise that is answered by a number or a word."""
     return Exercise(key, task, solution, tuple(hints), tuple(wrong), **options)
@@ -116,11 +124,20 @@ def function(key, task, solution, *, cases, hints, wrong, **options) -> Exercise
 
 def exercises_of(page: int) -> dict[str, Exercise]:
     """Return the exercises of a page by their ids; none where a page has none."""
-    name = f"page{page:02d}"
-    if not (Path(__file__).parent / f"{name}.py").is_file():
+    return _listed(page, "EXERCISES")
+
+
+def open_exercises_of(page: int) -> dict[str, Open]:
+    """Return the open exercises of a page by their ids."""
+    return _listed(page, "OPEN")
+
+
+def _listed(page: int, name: str) -> dict:
+    module = f"page{page:02d}"
+    if not (Path(__file__).parent / f"{module}.py").is_file():
         return {}
-    module = importlib.import_module(f".{name}", __package__)
-    return {exercise.key: exercise for exercise in module.EXERCISES}
+    found = getattr(importlib.import_module(f".{module}", __package__), name, ())
+    return {exercise.key: exercise for exercise in found}
 
 
 def page_of(key: str) -> int | None:
@@ -133,3 +150,9 @@ def all_exercises() -> Iterator[Exercise]:
     """Yield the exercises of all pages, in order."""
     for page in range(12):
         yield from exercises_of(page).values()
+
+
+def all_open_exercises() -> Iterator[Open]:
+    """Yield the open exercises of all pages, in order."""
+    for page in range(12):
+        yield from open_exercises_of(page).values()

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Open, Wrong, function, value
 from ._read import size
 
 GAMMA = 0.99
@@ -77,7 +77,8 @@ EXERCISES = [
         hints=(
             "Write down the first three payments, and what each counts.",
             "The payments are -1, -0.99, -0.99^2, ...: a geometric series of 20 terms.",
-            "The sum 1 + g + ... + g^(n-1) is (1 - g^n) / (1 - g); mind the sign.",
+            "(1 - g)(1 + g + ... + g^(n-1)) is short: it is 1 - g^n. Divide by 1 - g, "
+            "and mind the sign.",
         ),
         wrong=[
             Wrong("no discount", -20, "Later steps count less: multiply each by 0.99."),
@@ -111,9 +112,11 @@ EXERCISES = [
         "arrives?",
         100,
         hints=(
-            "The robot pays 1 for ever; each step later counts less.",
-            "Call the sum x. Without its first term it is 0.99 times itself.",
-            "From x = 1 + 0.99 x follows x = 1 / (1 - 0.99).",
+            "What is the most that any single payment can be? The robot pays it for "
+            "ever; each step later counts less.",
+            "Put it into every term of the return, and call the sum x. Without its "
+            "first term it is 0.99 times itself.",
+            "From x = 1 + 0.99 x follows x = `1 / (1 - 0.99)`.",
         ),
         wrong=[
             Wrong(
@@ -149,7 +152,8 @@ EXERCISES = [
         same=(step_in_other_words,),
         hints=(
             "Two things can keep the robot where it is. Which?",
-            "It stays if its luck is `success` or more, or if the neighbor is -1.",
+            "It stays if its luck is `success` or more, or if the neighbor is -1. The "
+            "reward belongs to the cell that it reaches.",
             "First set `cell` to `neighbors[cell, direction]` if it may go; then the "
             "reward is 0 if `cell == goal`, else -1.",
         ),
@@ -191,5 +195,17 @@ EXERCISES = [
                 "The move succeeds if `luck` lies *below* `success`; equal fails.",
             ),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-1-4",
+        hints=(
+            "Let `read` look at it, or put it into the Map Studio under *The building "
+            "as text*, and go to the row and column of the answer.",
+            "What may stand between a room and a corridor?",
+        ),
+        good="the room is open to the corridor below it: two pieces of wall close it",
     ),
 ]

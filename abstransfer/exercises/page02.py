@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Open, Wrong, function, value
 from ._read import numbers_of_actions
 
 
@@ -42,10 +42,6 @@ def greedy_set_by_loop(q_row, tolerance):
     return {a for a, q in enumerate(q_row) if best - q <= tolerance}
 
 
-def _masked_as_zero(q_row, tolerance):
-    return greedy_set(np.where(np.isinf(q_row), 0, q_row), tolerance)
-
-
 def _values_instead(q_row, tolerance):
     return q_row[greedy_set(q_row, tolerance)]
 
@@ -53,16 +49,14 @@ def _values_instead(q_row, tolerance):
 def _rows(rng):
     tiny = 1e-12
     yield np.array([-1.0, -2, -1, -3]), 0
-    yield np.array([-3.0, -2.0, -2.0 - tiny, -np.inf]), 1e-9
+    yield np.array([-3.0, -2.0, -2.0 - tiny, -4.0]), 1e-9
     yield np.array([1.0, 2.0 - tiny, 0.0, 2.0]), 1e-9
     yield np.array([2.0, 2.0 - tiny, 0.0, 2.0]), 0
-    yield np.array([-2.5, -np.inf, -2.4, -2.0]), 0.45
+    yield np.array([-2.5, -3.0, -2.4, -2.0]), 0.45
     yield np.array([-2.5, -3.0, -2.75, -2.0]), 0.5  # one exactly at the edge
     yield np.array([-1.0, -1.0, -1.0]), 1e-9
     for tolerance in (0, 1e-9, 1e-9, 1) * 3:
-        row = rng.integers(-4, 0, 6) * 1.0 + rng.choice([0, tiny], 6)
-        row[rng.integers(6)] = -np.inf
-        yield row, tolerance
+        yield rng.integers(-4, 0, 6) * 1.0 + rng.choice([0, tiny], 6), tolerance
 
 
 EXERCISES = [
@@ -75,10 +69,11 @@ EXERCISES = [
         cases=_states,
         same=(backup_by_loops,),
         hints=(
-            "First say what each action is worth, then choose.",
-            "An action is worth the sum of probability times value over its outcomes.",
-            "`best = (probabilities * values).sum(axis=1).max()`; then it is "
-            "`reward + gamma * best`.",
+            "First one number for each action, then the best of them.",
+            "An action is worth the sum of probability times value over its outcomes. "
+            "The best is discounted, and the reward here comes on top.",
+            "`best = (probabilities * values).sum(axis=1).max()`; then it is `reward + "
+            "gamma * best`.",
         ),
         wrong=[
             Wrong(
@@ -125,7 +120,7 @@ EXERCISES = [
     function(
         "ex-2-2",
         "Write `greedy_set`, which returns the numbers of all actions whose value is "
-        "within `tolerance` of the best. A masked action has the value -inf.",
+        "within `tolerance` of the best.",
         greedy_set,
         cases=_rows,
         same=(
@@ -134,11 +129,12 @@ EXERCISES = [
         ),
         read=numbers_of_actions,
         hints=(
-            "More than one action can be best.",
-            "Numbers that should be equal may differ in the last digit: compare with "
-            "the largest value less the tolerance.",
-            "`np.flatnonzero(q_row >= q_row.max() - tolerance)`: why is -inf no "
-            "problem?",
+            "What is the largest entry? `np.argmax` gives one action; you want every "
+            "one.",
+            "Compare with the largest entry minus the tolerance: numbers that should "
+            "be equal may differ in the last digit.",
+            "`np.flatnonzero(q_row >= np.max(q_row) - tolerance)` are the places where "
+            "that is true.",
         ),
         wrong=[
             Wrong(
@@ -160,17 +156,12 @@ EXERCISES = [
                 "Values are rewards, also below 0: the best is the largest.",
             ),
             Wrong(
-                "a masked action counts as 0",
-                _masked_as_zero,
-                "-inf says that an action may not be chosen. "
-                "Where all other values are below 0, a 0 would look best.",
-            ),
-            Wrong(
-                "the worst, masked ones left out",
+                "less than the tolerance",
                 lambda q_row, tolerance: np.flatnonzero(
-                    q_row <= np.min(q_row[np.isfinite(q_row)]) + tolerance
+                    np.max(q_row) - q_row < tolerance
                 ),
-                "You return the worst of the allowed actions. The best is the largest.",
+                "A value that lies exactly `tolerance` below the best is within it. "
+                "With a tolerance of 0 you return nothing at all.",
             ),
             Wrong(
                 "values instead of actions",
@@ -188,9 +179,10 @@ EXERCISES = [
         -(1 - 0.99**6) / (1 - 0.99),
         tolerance=1e-3,
         hints=(
-            "No news of the goal has come that far. What does the cell believe?",
-            "Each sweep adds one discounted coin to the one that was there at the "
-            "start.",
+            "A cell looks at its neighbors only, so no news of the goal has come that "
+            "far. What does such a cell believe?",
+            "That it will pay 1 in each of the sweeps so far: each adds one discounted "
+            "coin to the one that was there at the start.",
             "-(1 + 0.99 + ... + 0.99^5): how many terms are that?",
         ),
         wrong=[
@@ -218,5 +210,23 @@ EXERCISES = [
                 "The size is right. But the robot pays: the value is below 0.",
             ),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-2-4",
+        hints=(
+            '`at.break_ties(optimal, "first")` is a policy, but for the rows of the '
+            "goals: no action is best there, so give each 1/8. "
+            "`at.evaluate_policy(office.mdp, policy)` judges it.",
+            '`at.abstract_policies(office, ("nd", "prob"), ties="first")` makes two '
+            "kinds of advice, ND and Prob: arrays with a row for each thing that may "
+            "be seen.",
+            "`office.rho` says what is seen in each state, so `nd[office.rho]` is the "
+            "policy of a robot that obeys the advice `nd`.",
+        ),
+        good="driving stays at -14.00; the advice changes a little, ND from -44.06 to "
+        "-43.74",
     ),
 ]

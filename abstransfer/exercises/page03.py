@@ -278,7 +278,8 @@ EPSILON_GREEDY = function(
     tolerance=NEAR,
     alike=0.04,  # of two samples
     hints=(
-        "Two draws: whether to explore, and which action.",
+        "Before the first goal every entry is 0, so all are the largest. Two draws are "
+        "needed: whether to explore, and which action.",
         "`rng.random() < epsilon` is true in a share `epsilon` of the calls; "
         "`rng.integers(n)` draws a whole number below n.",
         "The best actions are `np.flatnonzero(q_row == q_row.max())`; `rng.choice` "
@@ -332,9 +333,13 @@ Q0 = value(
     "goals in the large building?",
     -10,
     hints=(
-        "What does a note promise that nobody has tested yet?",
-        "A cell far from the goal is worth nearly -1 / (1 - 0.9).",
-        "Above that value the robot sweeps; below it, it keeps to what it tried first.",
+        "What does a note promise that nobody has tested yet? To try it, give "
+        "`at.q_learning` the first notes as q0.",
+        "What does a state cost that is far from the goal? Its value is nearly "
+        "`-1 / (1 - 0.9)`.",
+        "What does a robot prefer if everything it tried turned out better than its "
+        "first notes? Above that value the robot sweeps; below it, it keeps to what it "
+        "tried first.",
     ),
     wrong=[
         Wrong(
@@ -364,10 +369,11 @@ SAME_LEARNER = value(
     "0.95, from which value must the paying robot start to learn the same?",
     -20,
     hints=(
-        "A cost of 1 on each step, for ever, must be what the first notes say.",
-        "Put 0 into (Q - 1) / (1 - gamma), but mind: a state that never reaches "
-        "the goal pays on every step.",
-        "-1 / (1 - 0.95).",
+        "Write c = 1 / (1 - gamma), so that -1 - gamma c = -c. On the goal nothing "
+        "follows, so there is no maximum.",
+        "What does a robot pay that never arrives, 1 on each step for ever? That is "
+        "what the first notes must say.",
+        "A note of 0 becomes (0 - 1) / (1 - gamma): `-1 / (1 - 0.95)`.",
     ),
     wrong=[
         Wrong("the sign", 20, "The robot pays: its notes lie below 0."),

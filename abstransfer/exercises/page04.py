@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Open, Wrong, function, value
 
 
 def abstract_state(features):
@@ -62,8 +62,9 @@ EXERCISES = [
         cases=_views,
         same=(abstract_state_by_dot,),
         hints=(
-            "Every list must get a number of its own.",
-            "Feature f is worth 2 to the power f; add up those that hold.",
+            "Different lists must get different numbers.",
+            "Feature number f, counted from 0, is worth 2 to the power f; add up those "
+            "that hold.",
             "`sum(x * 2**f for f, x in enumerate(features))`, or shifts by f bits.",
         ),
         wrong=[
@@ -103,7 +104,7 @@ EXERCISES = [
         cases=_pairs,
         same=(near_goal_by_divmod,),
         hints=(
-            "From a cell's number get its row and its column.",
+            "First the row and the column of each cell, from its number.",
             "The row is `cell // width`, the column `cell % width`.",
             "Rows apart plus columns apart, both without sign, is at most `near`.",
         ),
@@ -152,8 +153,9 @@ EXERCISES = [
         88,
         also=(96,),  # in the target
         hints=(
-            "Count different entries of `source.rho`.",
-            "Leave out the states in which `source.mdp.terminal` is true.",
+            "The array `source.rho` holds one number for each state. Count different "
+            "ones.",
+            "The goals are where `source.mdp.terminal` is true: leave them out.",
             "`len(np.unique(source.rho[~source.mdp.terminal]))`.",
         ),
         wrong=[
@@ -173,5 +175,32 @@ EXERCISES = [
             ),
             Wrong("the other building", 96, "That is the target building."),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-4-4",
+        hints=(
+            "`best`, made for the picture with the arrows, says what is best in each "
+            "state; `at.count_votes(best, source.rho, source.n_abstract)` counts, for "
+            "each abstract state, how often each action is.",
+            "Subtract the largest count of a row from its sum.",
+        ),
+        good="three views of empty space both ways; the robot would have to know where "
+        "the door is",
+    ),
+    Open(
+        "ex-4-5",
+        hints=(
+            '`compass = at.navigation_tasks(source_map, actions="compass")`; `drive`, '
+            "from the first cell of this page, judges advice.",
+            'What would "go north" mean to a robot in another room, with the same '
+            "view?",
+            "The goal lies south, north or level, and east, west or level: nine sides. "
+            "Nine times `rho` plus the side is a new abstract state.",
+        ),
+        good="right in 51 % of the states; the mended robot drives well at home (Grad "
+        "-21.7) and badly in the target (-89.9)",
     ),
 ]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Open, Wrong, function, value
 
 
 def _votes(policies, rhos, n_abstract):
@@ -154,11 +154,11 @@ EXERCISES = [
         cases=_buildings,
         same=(induce_prob_by_loops,),
         hints=(
-            "One ballot box per abstract state, for all tasks together.",
+            "One ballot box for each abstract state, for all tasks together.",
             "Add each state's row of `policy` to the row of its abstract state; "
             "`np.add.at(votes, rho, policy)` does so for a task.",
-            "Divide each row by its own sum: `votes.sum(axis=1, keepdims=True)`. "
-            "Mind the rows whose sum is 0.",
+            "Divide each row by its sum, once, at the end: `votes.sum(axis=1, "
+            "keepdims=True)`. Mind the rows whose sum is 0.",
         ),
         wrong=[
             Wrong(
@@ -238,7 +238,7 @@ EXERCISES = [
         cases=_buildings,
         same=(induce_nd_by_sets,),
         hints=(
-            "For each abstract state and action: was it ever optimal, in any task?",
+            "For each abstract state and action: was it ever best, in any task?",
             "`votes > 0` says so; then the actions of a row share the probability.",
             "Divide `votes > 0` by its sum over each row, where that is not 0.",
         ),
@@ -307,9 +307,10 @@ EXERCISES = [
         share=True,
         tolerance=2e-3,
         hints=(
-            "The dial raises each share to the power beta.",
-            "The squares are 0.36, 0.09 and 0.01. Do they sum to 1?",
-            "0.36 / (0.36 + 0.09 + 0.01).",
+            "The dial raises each share to the power beta: square all three.",
+            "The squares are 0.36, 0.09 and 0.01. Do they sum to 1? For the second "
+            "question try `at.beta_policy` with a few numbers.",
+            "Divide by their sum: `0.36 / (0.36 + 0.09 + 0.01)`.",
         ),
         wrong=[
             Wrong("not normalised", 0.36, "The three squares do not sum to 1: divide."),
@@ -322,5 +323,19 @@ EXERCISES = [
                 "Beta is an exponent; and a probability is at most 1.",
             ),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-5-4",
+        hints=(
+            "`at.navigation_tasks` takes a list of maps.",
+            "The maps are called `source`, `target_b`, `target_c` and `target_d`; "
+            "`drive` and `new_to` stand in the first cell of this page.",
+            "What does one more vote do to a frequency, and what to a set?",
+        ),
+        good="nothing looks new any more; Prob hardly changes (-70.2, then -71.1), ND "
+        "gets worse (-81.0, then -88.3), for a set only grows",
     ),
 ]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Open, Wrong, function, value
 
 
 def numerical_gradient(f, x):
@@ -166,7 +166,8 @@ EXERCISES = [
         same=(assemble_by_matrix,),
         hints=(
             "Each state gives something to the row of its abstract state.",
-            "State s gives `gamma * d[s] * q[s]`. Which states give nothing?",
+            "State s gives `gamma * d[s] * q[s]`. Which states give nothing? Several "
+            "states may give to the same row: add, do not overwrite.",
             "`G = np.zeros((n_abstract, q.shape[1]))`, `d = np.where(terminal, 0, d)`, "
             "`np.add.at(G, rho, gamma * d[:, None] * q)`.",
         ),
@@ -223,9 +224,11 @@ EXERCISES = [
         share=True,
         tolerance=1e-3,
         hints=(
-            "First ignore that some actions are impossible.",
+            "First forget that five are impossible: what has the best action, what "
+            "have the two others?",
             "The best action has 0.95 + 0.05/8, the two others 0.05/8 each.",
-            "Divide the first of these by the sum of the three.",
+            "Divide the first of these by the sum of the three: `(0.95 + 0.05 / 8) / "
+            "(0.95 + 3 * 0.05 / 8)`.",
         ),
         wrong=[
             Wrong(
@@ -246,5 +249,19 @@ EXERCISES = [
             ),
             Wrong("no softness", 1, "A little is kept for the other actions."),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-6-4",
+        hints=(
+            "Three states for each task; no arrow joins the tasks.",
+            "At a wall the robot stays.",
+            "What does a robot pay that never arrives? In how many of the six states "
+            "does it start?",
+        ),
+        good="six states, no arrow from task to task; best at one half with -3.20, and "
+        "-33.83 at both ends",
     ),
 ]

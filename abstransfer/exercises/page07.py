@@ -58,7 +58,8 @@ EXERCISES = [
             lambda P, r, gamma: np.linalg.inv(np.eye(len(r)) - gamma * P) @ r,
         ),
         hints=(
-            "The value of a state stands on both sides of its equation.",
+            "The value of a state stands on both sides of its equation; of the first "
+            "cell, V = -1 + 0.99 * 0.1 * V.",
             "Collect the unknowns on the left: V - gamma P V = r.",
             "`A = np.eye(len(r)) - gamma * P`; then `np.linalg.solve(A, r)`.",
         ),
@@ -111,9 +112,12 @@ EXERCISES = [
         also=(None,),  # which part of the cost is waiting
         tolerance=1e-3,  # the scenes print one digit
         hints=(
-            "It is a uniform policy over fewer actions.",
-            "`policy = at.uniform_policy(target.available)`.",
-            "`at.evaluate_policy(target.mdp, policy).mean()`, over all states.",
+            "It is a uniform policy over fewer actions: `target.available` says which "
+            "have somewhere to go.",
+            "`at.uniform_policy` takes such a mask: `policy = "
+            "at.uniform_policy(target.available)`.",
+            "`at.evaluate_policy(target.mdp, policy).mean()`, over all states. The "
+            "wanderer pays more; which part of that is waiting?",
         ),
         wrong=[
             Wrong(
@@ -146,8 +150,10 @@ EXERCISES = [
         -81.580346,
         tolerance=2e-3,
         hints=(
-            "Make the tasks of the source once more, with other actions.",
-            '`compass = at.navigation_tasks(source_map, actions="compass")`.',
+            "Make the tasks of the source once more, with other actions. Then ask what "
+            "the robot would have to see to know where north is.",
+            '`compass = at.navigation_tasks(source_map, actions="compass")`; compare '
+            "with the paper's first column.",
             '`prob = at.abstract_policies(compass)["prob"][compass.rho]`; then '
             "`at.evaluate_policy(compass.mdp, prob).mean()`.",
         ),
@@ -170,7 +176,8 @@ EXERCISES = [
         "no",
         read=word,
         hints=(
-            "Make the source tasks three times.",
+            "Make the source tasks three times; `at.table1` with one argument gives "
+            "the source column alone.",
             "`at.navigation_tasks(source_map, success=0.9)` are those for 0.9.",
             "Compare the order of the four numbers in each line, not their size.",
         ),

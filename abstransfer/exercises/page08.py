@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Open, Wrong, function, value
 
 
 def advice_probability(t, tau):
@@ -36,7 +36,8 @@ EXERCISES = [
         ),
         hints=(
             "It falls along a straight line, and stays at 0.",
-            "Algorithm 2, line 4, has it for t up to tau.",
+            "Line 4 of Algorithm 2, and line 11 for the rest. In line 6 epsilon-greedy "
+            "is asked with probability 1 - lambda only.",
             "(tau - t) / tau while t is at most tau, else 0.",
         ),
         wrong=[
@@ -85,9 +86,11 @@ EXERCISES = [
         cases=_steps,
         same=(lambda t, tau: t <= tau, lambda t, tau: int(not t > tau)),
         hints=(
-            "All, then nothing.",
-            "Look at the conditions of both loops in Algorithm 1.",
-            "1 while t is at most tau, else 0.",
+            "All, then nothing. Count the steps that obey.",
+            "Look at the conditions of both loops in Algorithm 1. How large is lambda "
+            "in step tau?",
+            "`1 if t <= tau else 0`. In the trace of a run, how is 0 where the advice "
+            "was obeyed.",
         ),
         wrong=[
             Wrong(
@@ -126,7 +129,7 @@ EXERCISES = [
         hints=(
             "Add up the probabilities of all steps.",
             "They fall along a straight line from almost 1 to 0.",
-            "A triangle has half the area of its rectangle.",
+            "The sum of a straight line from 1 to 0 is half of its length.",
         ),
         wrong=[
             Wrong("hard instead of soft", 6, "So often the hard strategy would obey."),
@@ -142,5 +145,42 @@ EXERCISES = [
                 "These are the steps in which it has no say at all.",
             ),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-8-3",
+        hints=(
+            '`at.q_learning(tasks.mdp, 30_000_000, rng=0, guide=advice["nd"], '
+            "tau=...)`.",
+            "With tau = 0 nobody gives advice.",
+            "With tau = 30 million the robot learns all the time. Does it ever use "
+            "what it learned?",
+        ),
+        good="the left end is plain Q-learning (274,539 goals), the right end the "
+        "driving test (16,839), the top at 3.5 million",
+    ),
+    Open(
+        "ex-8-4",
+        hints=(
+            "Make the number of obeyed steps equal: hard with tau/2 against soft with "
+            "tau.",
+            "The argument `checkpoints=(9_000_000,)` keeps a copy of the table.",
+            "`copy.max(axis=1) > 0` is true where the goal has been heard of.",
+        ),
+        good="a control with as many obeyed steps; the difference stays, with the news "
+        "in 70 % of the states against 14 %",
+    ),
+    Open(
+        "ex-8-5",
+        hints=(
+            "What does the wanderer's advice do right? Take that away.",
+            "`tasks.actions` names the actions, `tasks.available` says which have "
+            "somewhere to go.",
+            "A robot that always walks away from its goal.",
+        ),
+        good="advice that keeps the robot from its goals, three runs of it, and three "
+        "without advice",
     ),
 ]

@@ -1,6 +1,6 @@
 """Exercises of page 9: Figures 3 and 4."""
 
-from ._model import Wrong, value
+from ._model import Open, Wrong, value
 
 EXERCISES = [
     value(
@@ -9,9 +9,10 @@ EXERCISES = [
         "runs does that take?",
         100,
         hints=(
-            "The width falls as the number of runs grows, but not as fast.",
-            "The mean of n runs varies by the spread of one, over the root of n.",
-            "The root must grow tenfold.",
+            "The mean of n runs varies by their standard deviation divided by the root "
+            "of n. 95 % of a bell curve lie within 1.96 standard deviations.",
+            "A tenth of the width: what happens to the root of n?",
+            "The root must grow tenfold: `10**2`.",
         ),
         wrong=[
             Wrong(
@@ -30,9 +31,11 @@ EXERCISES = [
         0.5,
         share=True,
         hints=(
-            "What partners share drops out of their difference.",
-            "The variance of a difference is 2 (1 - r) times that of one run.",
-            "Without pairs r is 0. Take the root of 1 - r.",
+            "What partners share drops out of their difference. `np.roll` by 1 gives "
+            "run i the partner i - 1; the first window is column 0 of the curves.",
+            "`at.experiments.stats.paired_difference` makes the interval. The variance "
+            "of a difference is 2 (1 - r) times that of one run.",
+            "Without pairs r is 0. Take the root of 1 - r: `np.sqrt(1 - 0.75)`.",
         ),
         wrong=[
             Wrong(
@@ -51,9 +54,11 @@ EXERCISES = [
         "are that?",
         46,
         hints=(
-            "Count the first look and the last.",
-            "From 5 to 6 there are two looks.",
-            "50 - 5 + 1.",
+            "Count the first look and the last. `np.cumsum` gives the sums after each "
+            "run at once.",
+            "From 5 to 6 there are two looks. One look would be wrong in 5 % of all "
+            "cases, and you take many.",
+            "`50 - 5 + 1`.",
         ),
         wrong=[
             Wrong(
@@ -77,7 +82,7 @@ EXERCISES = [
             "A mean of many runs varies less than one run. By which factor?",
             "Variances add up; the standard deviation of a mean of n runs falls with "
             "the square root of n.",
-            "2 divided by the square root of 50.",
+            "2 divided by the square root of 50: `2 / np.sqrt(50)`.",
         ),
         wrong=[
             Wrong("no gain from repeats", 2, "That is the spread of one run."),
@@ -127,7 +132,7 @@ EXERCISES = [
         hints=(
             "Each point is a mean over 500,000 steps.",
             "The experiment has 30 million steps.",
-            "30 million divided by half a million.",
+            "30 million divided by half a million: `30_000_000 / 500_000`.",
         ),
         wrong=[
             Wrong("a point per run", 50, "The 50 runs are averaged into one curve."),
@@ -137,5 +142,27 @@ EXERCISES = [
             Wrong("all runs", 3000, "The 50 runs are averaged into one curve."),
             Wrong("both ends", 61, "Windows are counted, not the marks between them."),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-9-4",
+        hints=(
+            "Does the interval hold 0?",
+            "The rules stand above the first table.",
+            "`at.reproduction.combine` takes a list of findings.",
+        ),
+        good="does not hold, undecided, holds, holds: it fails in part; without ND "
+        "undecided",
+    ),
+    Open(
+        "ex-9-5",
+        hints=(
+            "`at.reproduction.judge(finding.effect, margin, above=False)`.",
+            "When did you see the effects?",
+        ),
+        good="only at 15 % do all four findings hold; and the margin was chosen with "
+        "the effects in view",
     ),
 ]

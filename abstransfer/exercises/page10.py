@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function
+from ._model import Open, Wrong, function
 
 
 def diluted(advice, possible, share):
@@ -122,7 +122,9 @@ EXERCISES = [
         same=(share_closed_by_sums,),
         hints=(
             "Take the mean of each first; then there are three numbers on a line.",
-            "How far is it from low to middle, and how far from low to high?",
+            "How far is it from low to middle, and how far from low to high? For the "
+            "last question, ask `at.experiments.arrival` whether the tenth lets the "
+            "robot out.",
             "`low, middle, high = np.mean(low), np.mean(middle), np.mean(high)`; then "
             "`(middle - low) / (high - low)`.",
         ),
@@ -157,5 +159,43 @@ EXERCISES = [
                 "A ratio of two noisy differences can be wild. Take the means first.",
             ),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-10-1",
+        hints=(
+            "What would *coverage* say, what would you say if you believe in good "
+            "driving?",
+            "A prediction has a direction, and a size that would make you change your "
+            "mind.",
+            '`gain("grad-available-0.5-hard", "grad-hard")`.',
+        ),
+        good="a direction, and a size that would refute it, written before; found is "
+        "+18.3 % hard and +8.4 % soft",
+    ),
+    Open(
+        "ex-10-4",
+        hints=(
+            '`by_tau = at.experiments.read_results("study-tau-target")`, then '
+            '`by_tau.totals("beta-0-hard", tau)` for tau of 1, 2, 3.5, 6 and 9 '
+            "million.",
+            "Compare best with best, not only at the same tau.",
+            "Choosing the best of five from the same runs flatters both; does it "
+            "matter here?",
+        ),
+        good="the sweep of tau: ND leads at each, and both are best at 3.5 million",
+    ),
+    Open(
+        "ex-10-5",
+        hints=(
+            'Give `target=at.read_map("target_c")` to `at.experiments.Problem`, and '
+            "that to `at.experiments.target_tasks`.",
+            "`study-goal-target_c` has seven, hard.",
+            "Compare with *tried*.",
+        ),
+        good="a limit named before; both measures reach +0.90, so the test cannot "
+        "separate them",
     ),
 ]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function
+from ._model import Open, Wrong, function
 
 
 def toward_goal(possible, heads):
@@ -70,7 +70,7 @@ EXERCISES = [
         cases=_cases,
         same=(toward_goal_row_by_row,),
         hints=(
-            "Advice is an array of probabilities, with a row for each view.",
+            "Advice has a row of probabilities for each abstract state.",
             "`wanted = possible & heads` is what you want, in rows that are not empty.",
             "`wanted = np.where(wanted.any(axis=1, keepdims=True), wanted, possible)`; "
             "then divide each row by its sum.",
@@ -104,5 +104,46 @@ EXERCISES = [
                 "possible.",
             ),
         ],
+    ),
+]
+
+OPEN = [
+    Open(
+        "ex-11-1",
+        hints=(
+            "What may stand between a room and a corridor?",
+            "`at.parse_map` stops at the first mistake. Mend it and run again.",
+            "How does a robot get into the room on the right?",
+        ),
+        good="a door into each room, found one message at a time",
+    ),
+    Open(
+        "ex-11-2",
+        hints=(
+            "Copy the loop above; the list of features is `at.FEATURES`.",
+            "An interval that lies on one side of 0 tells you the sign; two intervals "
+            "that overlap tell you little.",
+        ),
+        good="without `near_goal` +7.3 %, without either of the others still below 0",
+    ),
+    Open(
+        "ex-11-4",
+        hints=(
+            "What cuts an endless wait short? What else decides how much of a run the "
+            "advice takes?",
+            "Try another `tau`, or another door.",
+            "Which wall makes the robot wait?",
+        ),
+        good="one change with its reason, for instance two more doors: +8.6 %",
+    ),
+    Open(
+        "ex-11-5",
+        hints=(
+            "`at.project.verify(text)`; a text in quotes three times may have many "
+            "lines.",
+            "What does the card not say, if your friend wrote the advice alone? Ask "
+            "for it.",
+        ),
+        good="the card is confirmed; after the change, the first line that is not so",
     ),
 ]

@@ -97,7 +97,7 @@ def test_an_open_exercise_gets_an_empty_cell_that_says_so():
     edition = student_edition.student_edition(new_notebook(cells=cells))
 
     assert [c.cell_type for c in edition.cells] == ["markdown", "code", "markdown"]
-    assert edition.cells[1].source == student_edition.OPEN
+    assert edition.cells[1].source == student_edition.OPEN.format(key="ex-1-1")
 
 
 @pytest.fixture(params=PAGES, ids=lambda path: path.stem)

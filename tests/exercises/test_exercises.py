@@ -8,9 +8,16 @@ import numpy as np
 import pytest
 from support import ROOT
 
-from abstransfer.exercises import _check, all_exercises, check, exercises_of
+from abstransfer.exercises import (
+    _check,
+    all_exercises,
+    all_open_exercises,
+    check,
+    exercises_of,
+)
 
 ALL = {exercise.key: exercise for exercise in all_exercises()}
+OPEN = {exercise.key: exercise for exercise in all_open_exercises()}
 CODING = {key: exercise for key, exercise in ALL.items() if exercise.cases}
 
 
@@ -176,13 +183,25 @@ def test_a_wrong_answer_is_shown_beside_the_right_one():
     assert "Yours gives 0.5, not 0" in text
 
 
-def test_an_open_exercise_is_told_from_those_that_are_checked():
-    reply = check("ex-8-3", 1)
+def test_an_open_exercise_gets_its_hints_in_turn_and_what_a_good_answer_holds():
+    for key, exercise in OPEN.items():
+        texts = [check(key).text for _ in range(4)]
+        told = check(key, "my thoughts")
 
-    assert not reply
-    assert reply.verdict == "not checked"
-    assert "An open exercise has no check" in reply.text
-    assert "ex-8-1, ex-8-2" in reply.text
+        last = f"Hint {len(exercise.hints)} of {len(exercise.hints)}:"
+        assert texts[0].startswith(f"Hint 1 of {len(exercise.hints)}: ")
+        assert texts[-1] == f"{last} {exercise.hints[-1]}"
+        assert not told
+        assert told.verdict == "not checked"
+        assert told.text.startswith("An open exercise has no check.")
+        assert exercise.good in told.text
+
+
+def test_the_lecturers_guide_says_what_a_good_answer_holds_in_the_same_words():
+    guide = (ROOT / "book" / "lecturers_guide.md").read_text(encoding="utf-8")
+    told = dict(re.findall(r"^\| `(ex-\S+)` \| (.*) \|$", guide, re.MULTILINE))
+
+    assert told == {key: exercise.good for key, exercise in OPEN.items()}
 
 
 @pytest.mark.parametrize("key", ["ex-99-1", "nonsense", "", "`" * 500, "ex-\u0661-1"])

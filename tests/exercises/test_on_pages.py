@@ -13,7 +13,13 @@ import pytest
 from support import ROOT
 
 import abstransfer as at
-from abstransfer.exercises import _check, all_exercises, check
+from abstransfer.exercises import (
+    _check,
+    all_exercises,
+    check,
+    exercises_of,
+    open_exercises_of,
+)
 
 ALL = {exercise.key: exercise for exercise in all_exercises()}
 PAGES = sorted(
@@ -184,16 +190,28 @@ def like(exercise, function):
     return function
 
 
-# ---- the hints that the pages print
+# ---- open exercises, of which only the hints can be looked at
 
-PRINTED = re.compile(r"\*Hint[ .\d]*\*\s(.*)")
-# Names that the words of a printed hint give, or leave to the reader.
+# Names that the words of a hint give, or leave to the reader.
 GIVEN = {
     "00_race": {"curve"},  # the average curve
-    "07_driving_test": {"A"},  # of A V = r
     "08_advice": {"copy"},  # of the table
-    "11_your_turn": {"wanted"},  # of the hint before
 }
+NOTEBOOKS = sorted((ROOT / "book").glob("[0-9]*.ipynb"))
+STATED = re.compile(
+    r"\{exercise-start\}\n:label: (ex-\d+-\d+)\n```\n(.*?)```\{exercise-end\}",
+    re.DOTALL,
+)
+
+
+def words_of(path):
+    """Return the Markdown of a page."""
+    page = json.loads(path.read_text(encoding="utf-8"))
+    return "\n".join(
+        "".join(cell["source"])
+        for cell in page["cells"]
+        if cell["cell_type"] == "markdown"
+    )
 
 
 def asked(code):
@@ -204,23 +222,27 @@ def asked(code):
     return {n.id for n in before if isinstance(n, ast.Name)}
 
 
-@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
-def test_what_a_printed_hint_calls_is_on_its_page(path):
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_what_a_hint_of_an_open_exercise_calls_is_on_its_page(path):
     page = json.loads(path.read_text(encoding="utf-8"))
     known = {*dir(builtins), *GIVEN.get(path.stem, ())}
-    for exercise in ALL.values():
-        if exercise.cases and exercise.key.startswith(f"ex-{int(path.name[:2])}-"):
-            known |= set(exercise.parameters)
     for cell in page["cells"]:
-        text = "".join(cell["source"])
         if cell["cell_type"] == "code":
-            known |= changed(text)[0]
-            continue
-        for hint in PRINTED.findall(re.sub(r"\{\w+\}`[^`]*`", "", text)):
-            for code in CODE.findall(hint):
-                if code in ("//", "%"):
-                    continue
-                known |= changed(code)[0]
-                assert asked(code) <= known, code
-                for name in re.findall(r"\b(?:at|np)(?:\.\w+)+", code):
-                    assert eval(name, {"at": at, "np": np}), name
+            known |= changed("".join(cell["source"]))[0]
+    for exercise in open_exercises_of(int(path.name[:2])).values():
+        for code in code_of(exercise):
+            known |= changed(code)[0]
+            assert asked(code) <= known, code
+            for name in re.findall(r"\b(?:at|np)(?:\.\w+)+", code):
+                assert eval(name, {"at": at, "np": np}), name
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_each_exercise_of_a_page_is_known_and_its_hints_stand_in_one_place(path):
+    stated = dict(STATED.findall(words_of(path)))
+    page = int(path.name[:2])
+    known = exercises_of(page) | open_exercises_of(page)
+
+    assert set(stated) == {key.rstrip("b") for key in known}
+    for key, words in stated.items():
+        assert "hint" not in words.lower(), f"{key}: hints are data in exercises/"
