@@ -23,6 +23,32 @@ class Wrong(NamedTuple):
     hint: str
 
 
+class Stub(NamedTuple):
+    """A function with blanks, for who chooses lines instead of writing them."""
+
+    code: str  # where a blank is, its name stands in braces
+    blanks: dict[str, dict[str, str]]  # by blank, the line of each mistake; "": right
+
+    def filled(self, **mistakes: str) -> str:
+        """
+        Return the code with the right lines, but for the mistakes, by blank.
+
+        >>> twice = stub("return {it}", it=("2 * x", {"a square": "x * x"}))
+        >>> twice.filled(), twice.filled(it="a square")
+        ('return 2 * x', 'return x * x')
+        """
+        code = self.code
+        for name, lines in self.blanks.items():
+            code = code.replace(f"{{{name}}}", lines[mistakes.get(name, "")])
+        return code
+
+
+def stub(code: str, **blanks: tuple[str, dict[str, str]]) -> Stub:
+    """Return a stub; of each blank the right line, and those of mistakes by name."""
+    lines = {name: {"": right, **wrong} for name, (right, wrong) in blanks.items()}
+    return Stub(code, lines)
+
+
 class Verdict(NamedTuple):
     """What an answer is: "right", "nearly", "mistake" or "not yet"."""
 
@@ -58,6 +84,7 @@ class Exercise:
     exact: Callable | None = None  # *arguments -> what the solution comes to; or tried
     tell: Callable | None = None  # two outcomes -> in words how they differ
     alike: float = 1e-6  # the tolerance within which an answer is a known mistake
+    stub: Stub | None = None
 
     @property
     def name(self) -> str:

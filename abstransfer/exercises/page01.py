@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function, value
+from ._model import Open, Wrong, function, stub, value
 from ._read import size
 
 GAMMA = 0.99
@@ -149,6 +149,31 @@ EXERCISES = [
         "0, any other step -1; staying counts as arriving where it was.",
         step,
         cases=_four_cells,
+        stub=stub(
+            """\
+def step(neighbors, goal, success, cell, direction, luck):
+    there = neighbors[cell, direction]
+    now = there if {moves} else cell
+    return {told}
+""",
+            moves=(
+                "luck < success and there >= 0",
+                {
+                    "walking through walls": "luck < success",
+                    "no move fails": "there >= 0",
+                    "lucky the wrong way round": "luck >= success and there >= 0",
+                    "luck equal to success": "luck <= success and there >= 0",
+                },
+            ),
+            told=(
+                "now, (0 if now == goal else -1)",
+                {
+                    "paid for where it was": "now, (0 if cell == goal else -1)",
+                    "the other reward rule": "now, (1 if now == goal else 0)",
+                    "the reward first": "(0 if now == goal else -1), now",
+                },
+            ),
+        ),
         same=(step_in_other_words,),
         hints=(
             "Two things can keep the robot where it is. Which?",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function, value
+from ._model import Open, Wrong, function, stub, value
 from ._read import numbers_of_actions
 
 
@@ -67,6 +67,36 @@ EXERCISES = [
         "reward is that of the state itself.",
         backup,
         cases=_states,
+        stub=stub(
+            """\
+def backup(reward, gamma, values, probabilities):
+    expected = {expected}
+    return {value}
+""",
+            expected=(
+                "[np.dot(v, p) for v, p in zip(values, probabilities, strict=True)]",
+                {
+                    "the best outcome instead of the expected one": (
+                        "[max(v) for v in values]"
+                    ),
+                    "all outcomes alike": "[np.mean(v) for v in values]",
+                },
+            ),
+            value=(
+                "reward + gamma * max(expected)",
+                {
+                    "no discount": "reward + max(expected)",
+                    "the reward is discounted too": "gamma * (reward + max(expected))",
+                    "the mean over actions instead of the best": (
+                        "reward + gamma * np.mean(expected)"
+                    ),
+                    "the worst action": "reward + gamma * min(expected)",
+                    "the largest is sought from 0 on": (
+                        "reward + gamma * max(0, *expected)"
+                    ),
+                },
+            ),
+        ),
         same=(backup_by_loops,),
         hints=(
             "First one number for each action, then the best of them.",
@@ -123,6 +153,23 @@ EXERCISES = [
         "within `tolerance` of the best.",
         greedy_set,
         cases=_rows,
+        stub=stub(
+            """\
+def greedy_set(q_row, tolerance):
+    largest = max(q_row)
+    return [{kept} for a, q in enumerate(q_row) if {is_best}]
+""",
+            kept=("a", {"values instead of actions": "q"}),
+            is_best=(
+                "q >= largest - tolerance",
+                {
+                    "the first best only": "a == np.argmax(q_row)",
+                    "equal to the last digit": "q == largest",
+                    "less than the tolerance": "largest - q < tolerance",
+                    "the worst instead of the best": "q <= min(q_row) + tolerance",
+                },
+            ),
+        ),
         same=(
             greedy_set_by_loop,
             lambda q_row, tolerance: np.abs(q_row - q_row.max()) <= tolerance,

@@ -4,7 +4,7 @@ import copy
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Wrong, function, stub, value
 from ._read import Unreadable, numbers, shown
 
 
@@ -81,6 +81,43 @@ UPDATED = function(
     "ended on the goal, `cut` that it was the 5,000th of its episode.",
     updated,
     cases=_steps,
+    stub=stub(
+        """\
+def updated(old, reward, next_values, reached_goal, cut, alpha, gamma):
+    following = {following}
+    return {value}
+""",
+        following=(
+            "0 if reached_goal else max(next_values)",
+            {
+                "something follows the goal": "max(next_values)",
+                "a cut is a goal": "0 if reached_goal or cut else max(next_values)",
+                "the largest value of the wrong state": "0 if reached_goal else old",
+                "the mean of the next values": (
+                    "0 if reached_goal else np.mean(next_values)"
+                ),
+            },
+        ),
+        value=(
+            "(1 - alpha) * old + alpha * (reward + gamma * following)",
+            {
+                "away from the target": (
+                    "(1 + alpha) * old - alpha * (reward + gamma * following)"
+                ),
+                "the target replaces the old value": "reward + gamma * following",
+                "alpha and 1 - alpha swapped": (
+                    "alpha * old + (1 - alpha) * (reward + gamma * following)"
+                ),
+                "no discount": "(1 - alpha) * old + alpha * (reward + following)",
+                "the old value is kept whole": (
+                    "old + alpha * (reward + gamma * following)"
+                ),
+                "alpha for the reward only": (
+                    "(1 - alpha) * old + alpha * reward + gamma * following"
+                ),
+            },
+        ),
+    ),
     same=(updated_by_error,),
     hints=(
         "How much of `old` is kept, and what is mixed in?",
@@ -271,6 +308,29 @@ EPSILON_GREEDY = function(
     "from `rng`.",
     epsilon_greedy,
     cases=_choices,
+    stub=stub(
+        """\
+def epsilon_greedy(q_row, epsilon, rng):
+    if {explores}:
+        return {any}
+    return {best}
+""",
+        explores=(
+            "rng.random() < epsilon",
+            {"epsilon the wrong way round": "rng.random() > epsilon"},
+        ),
+        any=(
+            "rng.integers(len(q_row))",
+            {"the last action is never explored": "rng.integers(len(q_row) - 1)"},
+        ),
+        best=(
+            "rng.choice(np.flatnonzero(q_row == q_row.max()))",
+            {
+                "the first of equals": "np.argmax(q_row)",
+                "the last of equals": "len(q_row) - 1 - np.argmax(q_row[::-1])",
+            },
+        ),
+    ),
     same=(epsilon_greedy_by_weights,),
     probe=shares,
     exact=exact_shares,

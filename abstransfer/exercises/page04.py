@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function, value
+from ._model import Open, Wrong, function, stub, value
 
 
 def abstract_state(features):
@@ -60,6 +60,22 @@ EXERCISES = [
         "number: feature 0 is worth 1, feature 1 is worth 2, feature 2 is worth 4, ...",
         abstract_state,
         cases=_views,
+        stub=stub(
+            """\
+def abstract_state(features):
+    return sum({worth} for f, x in enumerate(features))
+""",
+            worth=(
+                "int(x) << f",
+                {
+                    "counting the features": "int(x)",
+                    "read from the other end": "int(x) << len(features) - 1 - f",
+                    "decimal digits": "int(x) * 10**f",
+                    "weights from 2": "int(x) << f + 1",
+                    "adding the places": "int(x) * f",
+                },
+            ),
+        ),
         same=(abstract_state_by_dot,),
         hints=(
             "Different lists must get different numbers.",
@@ -102,6 +118,25 @@ EXERCISES = [
         "Cells are numbered row by row, `width` in a row. Walls do not count.",
         near_goal,
         cases=_pairs,
+        stub=stub(
+            """\
+def near_goal(cell, goal, width, near):
+    rows = abs(cell // width - goal // width)
+    columns = abs(cell % width - goal % width)
+    return {is_near}
+""",
+            is_near=(
+                "rows + columns <= near",
+                {
+                    "as the crow flies": "np.hypot(rows, columns) <= near",
+                    "at least instead of at most": "rows + columns >= near",
+                    "the larger of the two distances": "max(rows, columns) <= near",
+                    "less than": "rows + columns < near",
+                    "the distance itself": "rows + columns",
+                    "numbers of cells subtracted": "abs(cell - goal) <= near",
+                },
+            ),
+        ),
         same=(near_goal_by_divmod,),
         hints=(
             "First the row and the column of each cell, from its number.",

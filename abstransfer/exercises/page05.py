@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function, value
+from ._model import Open, Wrong, function, stub, value
 
 
 def _votes(policies, rhos, n_abstract):
@@ -152,6 +152,35 @@ EXERCISES = [
         "Write `induce_prob`, the array (Z, A) of pi_AbsProb. " + TASK,
         induce_prob,
         cases=_buildings,
+        stub=stub(
+            """\
+def induce_prob(policies, rhos, n_abstract):
+    votes = np.zeros((n_abstract, policies[0].shape[1]))
+    for policy, rho in zip(policies, rhos, strict=True):
+        {count}
+    total = votes.sum(axis=1, keepdims=True)
+    return {shares}
+""",
+            count=(
+                "np.add.at(votes, rho, policy)",
+                {
+                    "votes[rho] += policy": "votes[rho] += policy",
+                    "a tie casts whole votes": "np.add.at(votes, rho, policy > 0)",
+                },
+            ),
+            shares=(
+                "votes / np.where(total > 0, total, 1)",
+                {
+                    "counts instead of shares": "votes",
+                    "divided by all votes": "votes / votes.sum()",
+                    "shares over abstract states": "votes / votes.sum(axis=0)",
+                    "uniform where nobody votes": (
+                        "np.where(total > 0, votes / np.maximum(total, 1), "
+                        "1 / votes.shape[1])"
+                    ),
+                },
+            ),
+        ),
         same=(induce_prob_by_loops,),
         hints=(
             "One ballot box for each abstract state, for all tasks together.",
@@ -236,6 +265,41 @@ EXERCISES = [
         "actions. " + TASK,
         induce_nd,
         cases=_buildings,
+        stub=stub(
+            """\
+def induce_nd(policies, rhos, n_abstract):
+    votes = np.zeros((n_abstract, policies[0].shape[1]))
+    for policy, rho in zip(policies, rhos, strict=True):
+        np.add.at(votes, rho, policy)
+    ever = {ever}
+    return {advice}
+""",
+            ever=(
+                "votes > 0",
+                {
+                    "half a vote is none": "votes >= 1",
+                    "the winner takes all": (
+                        "(votes > 0) & (votes == votes.max(axis=1, keepdims=True))"
+                    ),
+                    "uniform where nobody votes": (
+                        "(votes > 0) | (votes.sum(axis=1, keepdims=True) == 0)"
+                    ),
+                },
+            ),
+            advice=(
+                "ever / np.maximum(ever.sum(axis=1, keepdims=True), 1)",
+                {
+                    "counts instead of a set": (
+                        "votes / np.maximum(votes.sum(axis=1, keepdims=True), 1)"
+                    ),
+                    "a set without probabilities": "1.0 * ever",
+                    "shares over abstract states": (
+                        "ever / np.maximum(ever.sum(axis=0), 1)"
+                    ),
+                    "divided by the number of all actions": "ever / ever.shape[1]",
+                },
+            ),
+        ),
         same=(induce_nd_by_sets,),
         hints=(
             "For each abstract state and action: was it ever best, in any task?",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function, value
+from ._model import Open, Wrong, function, stub, value
 
 
 def numerical_gradient(f, x):
@@ -110,6 +110,23 @@ EXERCISES = [
         "of the array `x`, by small differences.",
         numerical_gradient,
         cases=_hills,
+        stub=stub(
+            """\
+def numerical_gradient(f, x):
+    h = 1e-5
+    return np.array([{slope} for e in np.eye(len(x))])
+""",
+            slope=(
+                "(f(x + h * e) - f(x - h * e)) / (2 * h)",
+                {
+                    "differences instead of slopes": "f(x + h * e) - f(x - h * e)",
+                    "half the distance": "(f(x + h * e) - f(x - h * e)) / h",
+                    "all entries at once": "(f(x + h) - f(x - h)) / (2 * h)",
+                    "a giant step": "f(x + e) - f(x)",
+                    "the sign": "(f(x - h * e) - f(x + h * e)) / (2 * h)",
+                },
+            ),
+        ),
         same=(numerical_gradient_by_loop,),
         tolerance=1e-3,
         hints=(
@@ -163,6 +180,27 @@ EXERCISES = [
         "have no part in it.",
         assemble,
         cases=_unions,
+        stub=stub(
+            """\
+def assemble(d, q, rho, terminal, n_abstract, gamma):
+    gradient = np.zeros((n_abstract, q.shape[1]))
+    for s in range(len(rho)):
+        if {counts}:
+            {adds}
+    return gradient
+""",
+            counts=("not terminal[s]", {"the goal counts": "d[s] > 0"}),
+            adds=(
+                "gradient[rho[s]] += gamma * d[s] * q[s]",
+                {
+                    "no discount": "gradient[rho[s]] += d[s] * q[s]",
+                    "no visits": "gradient[rho[s]] += gamma * q[s]",
+                    "one of those that look alike": (
+                        "gradient[rho[s]] = gamma * d[s] * q[s]"
+                    ),
+                },
+            ),
+        ),
         same=(assemble_by_matrix,),
         hints=(
             "Each state gives something to the row of its abstract state.",
@@ -206,10 +244,10 @@ EXERCISES = [
                 "The episode ends in a terminal state: no action is taken there.",
             ),
             Wrong(
-                "G[rho] += ...",
+                "one of those that look alike",
                 _overwritten,
-                "Where two states look alike, this keeps one of them only. `np.add.at` "
-                "keeps both.",
+                "Where two states look alike, this keeps one of them only, as "
+                "`G[rho] += ...` does. `np.add.at` keeps both.",
             ),
         ],
     ),

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Wrong, function, value
+from ._model import Wrong, function, stub, value
 from ._read import word
 
 
@@ -53,6 +53,31 @@ EXERCISES = [
         "and the rewards r (S,). The row of a goal in P is 0.",
         evaluate,
         cases=_drivers,
+        stub=stub(
+            """\
+def evaluate(P, r, gamma):
+    return {values}
+""",
+            values=(
+                "np.linalg.solve(np.eye(len(r)) - gamma * P, r)",
+                {
+                    "no discount": "np.linalg.solve(np.eye(len(r)) - P, r)",
+                    "from where instead of to where": (
+                        "np.linalg.solve(np.eye(len(r)) - gamma * P.T, r)"
+                    ),
+                    "the reward of now is missing": (
+                        "gamma * P @ np.linalg.solve(np.eye(len(r)) - gamma * P, r)"
+                    ),
+                    "the reward of the next state": (
+                        "np.linalg.solve(np.eye(len(r)) - gamma * P, P @ r)"
+                    ),
+                    "one sweep is not the solution": "r + gamma * P @ r",
+                    "plus instead of minus": (
+                        "np.linalg.solve(np.eye(len(r)) + gamma * P, r)"
+                    ),
+                },
+            ),
+        ),
         same=(
             evaluate_by_sweeps,
             lambda P, r, gamma: np.linalg.inv(np.eye(len(r)) - gamma * P) @ r,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function, value
+from ._model import Open, Wrong, function, stub, value
 
 
 def advice_probability(t, tau):
@@ -30,6 +30,24 @@ EXERCISES = [
         "in step t, for t = 1, 2, ...? After step tau, never.",
         advice_probability,
         cases=_steps,
+        stub=stub(
+            """\
+def advice_probability(t, tau):
+    return {chance}
+""",
+            chance=(
+                "max(0, (tau - t) / tau)",
+                {
+                    "the sign": "min(0, (t - tau) / tau)",
+                    "divided by t": "max(0, (tau - t) / t)",
+                    "counted from 0": "max(0, (tau - t + 1) / tau)",
+                    "negative after tau": "(tau - t) / tau",
+                    "its own ways instead of the advice": "min(1, t / tau)",
+                    "hard instead of soft": "1.0 if t <= tau else 0.0",
+                    "never quite 0 at tau": "max(0, (tau + 1 - t) / (tau + 1))",
+                },
+            ),
+        ),
         same=(
             lambda t, tau: max(0, 1 - t / tau),
             lambda t, tau: np.clip((tau - t) / tau, 0, 1),
@@ -84,6 +102,22 @@ EXERCISES = [
         "Write `advice_probability_hard`: the same for the hard strategy.",
         advice_probability_hard,
         cases=_steps,
+        stub=stub(
+            """\
+def advice_probability_hard(t, tau):
+    return {chance}
+""",
+            chance=(
+                "1.0 if t <= tau else 0.0",
+                {
+                    "off by one at t = tau": "1.0 if t < tau else 0.0",
+                    "one step too long": "1.0 if t <= tau + 1 else 0.0",
+                    "the wrong way round": "1.0 if t > tau else 0.0",
+                    "soft instead of hard": "max(0, (tau - t) / tau)",
+                    "for ever": "1.0",
+                },
+            ),
+        ),
         same=(lambda t, tau: t <= tau, lambda t, tau: int(not t > tau)),
         hints=(
             "All, then nothing. Count the steps that obey.",

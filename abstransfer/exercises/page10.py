@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function
+from ._model import Open, Wrong, function, stub
 
 
 def diluted(advice, possible, share):
@@ -74,6 +74,33 @@ EXERCISES = [
         "False; `share` is the eager robot's part, 0 to 1.",
         diluted,
         cases=_advice,
+        stub=stub(
+            """\
+def diluted(advice, possible, share):
+    eager = {eager}
+    return {mixed}
+""",
+            eager=(
+                "possible / possible.sum(axis=1, keepdims=True)",
+                {
+                    "uniform over all actions": (
+                        "np.full(advice.shape, 1 / advice.shape[1])"
+                    ),
+                    "uniform over its own list": (
+                        "(advice > 0) / (advice > 0).sum(axis=1, keepdims=True)"
+                    ),
+                },
+            ),
+            mixed=(
+                "(1 - share) * advice + share * eager",
+                {
+                    "the shares the other way round": (
+                        "share * advice + (1 - share) * eager"
+                    ),
+                    "added on top": "advice + share * eager",
+                },
+            ),
+        ),
         same=(diluted_row_by_row,),
         hints=(
             "Two arrays of advice, each with rows that sum to 1, are mixed.",
@@ -119,6 +146,27 @@ EXERCISES = [
         "means of Prob and ND the change closes: 0 none, 1 all of it.",
         share_closed,
         cases=_runs,
+        stub=stub(
+            """\
+def share_closed(low, middle, high):
+    gap = np.mean(high) - np.mean(low)
+    return {closed}
+""",
+            closed=(
+                "(np.mean(middle) - np.mean(low)) / gap",
+                {
+                    "the share of goals": "np.mean(middle) / np.mean(high)",
+                    "what is left of the gap": (
+                        "(np.mean(high) - np.mean(middle)) / gap"
+                    ),
+                    "a gain instead of a share": "np.mean(middle) / np.mean(low) - 1",
+                    "never above 1, never below 0": (
+                        "np.clip((np.mean(middle) - np.mean(low)) / gap, 0, 1)"
+                    ),
+                    "run by run": "np.mean((middle - low) / (high - low))",
+                },
+            ),
+        ),
         same=(share_closed_by_sums,),
         hints=(
             "Take the mean of each first; then there are three numbers on a line.",

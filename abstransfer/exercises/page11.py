@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._model import Open, Wrong, function
+from ._model import Open, Wrong, function, stub
 
 
 def toward_goal(possible, heads):
@@ -68,6 +68,29 @@ EXERCISES = [
         "the goal; where there is none, among all possible ones.",
         toward_goal,
         cases=_cases,
+        stub=stub(
+            """\
+def toward_goal(possible, heads):
+    wanted = possible & heads
+    chosen = {chosen}
+    return {advice}
+""",
+            chosen=(
+                "np.where(wanted.any(axis=1, keepdims=True), wanted, possible)",
+                {
+                    "no advice where no way leads to the goal": "wanted",
+                    "ways that are not there": "np.tile(heads, (len(possible), 1))",
+                    "all that is possible": "possible",
+                    "anything at all where no way leads to the goal": (
+                        "np.where(wanted.any(axis=1, keepdims=True), wanted, True)"
+                    ),
+                },
+            ),
+            advice=(
+                "chosen / np.maximum(chosen.sum(axis=1, keepdims=True), 1)",
+                {"rows that do not sum to 1": "1.0 * chosen"},
+            ),
+        ),
         same=(toward_goal_row_by_row,),
         hints=(
             "Advice has a row of probabilities for each abstract state.",
