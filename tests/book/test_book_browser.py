@@ -14,7 +14,7 @@ KNOWN = (
     ("aria-deprecated-role", "doc-biblioentry"),
     ("aria-required-children", "citation-list"),
 )
-WIDE, PHONE = ({"width": width, "height": 900} for width in (1440, 400))
+WIDE, PHONE, SMALL = ({"width": width, "height": 900} for width in (1440, 400, 320))
 # Scenes live, letters are there, nothing glides, and it was painted.
 DRAWN = """async () => {
     const pictures = async (n) => {
@@ -70,13 +70,15 @@ def test_a_page_is_accessible(page):
 
 
 def test_a_page_fits_a_phone(page):
-    page.set_viewport_size(PHONE)
+    widths = []
     try:
-        width = drawn(page).evaluate("document.documentElement.scrollWidth")
+        for phone in (PHONE, SMALL):
+            page.set_viewport_size(phone)
+            widths.append(drawn(page).evaluate("document.documentElement.scrollWidth"))
     finally:
         page.set_viewport_size(WIDE)
 
-    assert width <= 400
+    assert widths == [400, 320]
 
 
 def test_each_choice_of_a_quiz_opens_by_keyboard(page):

@@ -3,6 +3,7 @@
 
 import { STEP } from "../engine/maps.js";
 import { drawn, make, place } from "./dom.js";
+import { frameOf } from "./frame.js";
 import { addLayers } from "./layers.js";
 import { CELL, edges, middle, star } from "./plan.js";
 
@@ -43,7 +44,7 @@ export function building(options) {
     { class: "ab-keys", hidden: true },
     list.map(([key, text]) => make("div", {}, make("dt", {}, key), make("dd", {}, text))),
   );
-  const frame = make("div", { class: "ab-frame" }, svg);
+  const frame = frameOf(svg, { label: label || "The building", hasStops: canWalk });
   const hint = make("p", { class: "ab-hint" }, canWalk && "Press ? for the keys.");
   const node = make("div", { class: "ab-view" }, frame, hint, help);
   const view = { node, svg, cell: 0, cells: [], plan: null, show, select, focus, rename };

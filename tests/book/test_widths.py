@@ -1,0 +1,52 @@
+"""The built pages in windows of all widths: nothing sticks out, no building is cut."""
+
+import pytest
+
+WIDTHS = [*range(320, 1921, 64), 360, 400, 600, 768, 820, 1240, 1366]  # pixels
+SINGLE = 768  # from this width on a building is whole
+PICTURES = """() => new Promise(
+    (f) => requestAnimationFrame(() => requestAnimationFrame(f)))"""
+LOOK = """() => ({
+    page: document.documentElement.scrollWidth,
+    frames: [...document.querySelectorAll(".ab-frame")].map((frame) => ({
+        hidden: frame.scrollWidth - frame.clientWidth,
+        isShown: (frame.dataset.cut ?? "").includes("right"),
+        name: frame.getAttribute("aria-label") ?? "",
+    })),
+})"""
+LIVE = "!document.querySelector('.abstransfer-scene:not(.ab-live)')"
+
+
+def at_width(page, width):
+    """What a page looks like in a window of a width."""
+    page.set_viewport_size({"width": width, "height": 900})
+    page.evaluate(PICTURES)
+    return page.evaluate(LOOK)
+
+
+def test_the_index_fits_a_phone(visit):
+    page = visit().open("genindex")
+
+    assert [at_width(page, width)["page"] for width in (320, 400)] == [320, 400]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["00_race", "01_building", "02_solving", "03_learning", "04_abstraction"]
+    + ["05_inducing", "07_driving_test", "11_your_turn"],
+)
+def test_no_building_is_cut_without_a_sign(visit, name):
+    page = visit().open(name)
+    page.wait_for_function(LIVE)
+    wrong = []
+    for width in WIDTHS:
+        found = at_width(page, width)
+        wrong += [f"the page at {width}"] if found["page"] > width else []
+        for frame in found["frames"]:
+            is_cut = frame["hidden"] > 0
+            if is_cut != frame["isShown"] or (is_cut and not frame["name"]):
+                wrong.append(f"no sign at {width}: {frame}")
+            if is_cut and width >= SINGLE:
+                wrong.append(f"cut at {width}: {frame}")
+
+    assert wrong == []
