@@ -14,13 +14,7 @@ from scipy import stats
 
 from .arms import ARMS, Arm
 from .results import Results
-from .stats import (
-    LEVEL,
-    RESAMPLES,
-    Interval,
-    mean_interval,
-    relative_gain,
-)
+from .stats import LEVEL, Interval, gain_interval, t_interval
 
 
 class Tuning(NamedTuple):
@@ -30,8 +24,6 @@ class Tuning(NamedTuple):
     taus: np.ndarray  #: (T,) ascending
     goals: Interval  #: (T,) mean goals of a run
     best: int  #: tau of the highest mean
-    low: int  #: ends of the bootstrap interval of the best tau, on the grid
-    high: int  #: the upper end
     as_good: tuple[int, ...]  #: those that may be the best: 95 % sure to hold it
     paper: int | None  #: the paper's tau, None if its grid point is missing
     paper_gain: Interval | None  #: goals at the paper's tau over those at the best, - 1
@@ -47,16 +39,14 @@ class Tuning(NamedTuple):
         return self.best in (self.taus[0], self.taus[-1])
 
 
-def tune(results: Results, *, rng=0) -> tuple[Tuning, ...]:
+def tune(results: Results) -> tuple[Tuning, ...]:
     """
     Return what a grid of tau says, arm by arm.
 
-    Interval of the best tau: runs are drawn with replacement, the same ones for
-    every tau, and the best of each draw is noted.  It tells how steady the choice
-    is.  Where the top is flat it can miss the true best: the luckiest of several
-    equal tau looks better than it is.  The set `as_good` allows for that: a tau
-    leaves it if a paired t-test against the highest, one-sided and divided among
-    all comparisons (Bonferroni), says that it is worse.
+    Where the top is flat the luckiest of several equal tau looks better than it is.
+    The set `as_good` allows for that: a tau leaves it if a paired t-test against
+    the highest, one-sided and divided among all comparisons (Bonferroni), says that
+    it is worse.
 
     Raises
     ------
@@ -67,9 +57,8 @@ def tune(results: Results, *, rng=0) -> tuple[Tuning, ...]:
     ----------
     Gupta (1965), On some multiple decision (selection and ranking) rules.
     """
-    rng = np.random.default_rng(rng)
     names = dict.fromkeys(arm.name for arm in results.arms)
-    return tuple(_tune_arm(results, name, rng) for name in names)
+    return tuple(_tune_arm(results, name) for name in names)
 
 
 def tuned_arms(tunings: tuple[Tuning, ...], arms: tuple[Arm, ...] = ARMS) -> tuple:
@@ -78,14 +67,13 @@ def tuned_arms(tunings: tuple[Tuning, ...], arms: tuple[Arm, ...] = ARMS) -> tup
     return tuple(arm._replace(tau=best.get(arm.name, arm.tau)) for arm in arms)
 
 
-def _tune_arm(results: Results, name: str, rng) -> Tuning:
+def _tune_arm(results: Results, name: str) -> Tuning:
     taus = sorted(arm.tau for arm in results.arms if arm.name == name)
     if len(taus) < 2:
         raise ValueError(f"a grid must hold several tau of {name!r}, got {taus}")
     totals = {tau: results.totals(name, tau) for tau in taus}  # each (N,)
-    goals = mean_interval(np.column_stack(list(totals.values())), rng=rng)
+    goals = t_interval(np.column_stack(list(totals.values())))
     best = taus[goals.estimate.argmax()]
-    low, high = _best_interval(np.array(taus), np.stack(list(totals.values())), rng)
     chance = (1 - LEVEL) / (len(taus) - 1)
     as_good = tuple(
         tau for tau in taus if not _p_value(totals[best], totals[tau]) < chance
@@ -93,14 +81,12 @@ def _tune_arm(results: Results, name: str, rng) -> Tuning:
     paper = next((arm.tau for arm in ARMS if arm.name == name), None)
     gain = None
     if paper in totals:
-        gain = relative_gain(totals[paper], totals[best], rng=rng)
+        gain = gain_interval(totals[paper], totals[best])
     return Tuning(
         name,
         np.array(taus),
         goals,
         best,
-        low,
-        high,
         as_good,
         paper if gain else None,
         gain,
@@ -115,13 +101,3 @@ def _p_value(a: np.ndarray, b: np.ndarray) -> float:
     with np.errstate(divide="ignore"):  # a difference that never varies is certain
         t = difference.mean() / (difference.std(ddof=1) / len(difference) ** 0.5)
     return float(stats.t.sf(t, len(difference) - 1))
-
-
-def _best_interval(taus: np.ndarray, totals: np.ndarray, rng) -> tuple[int, int]:
-    """Return the ends of the interval of the best of taus (T,); totals (T, N)."""
-    n_runs = totals.shape[1]
-    drawn = rng.integers(0, n_runs, (RESAMPLES, n_runs))
-    best = taus[totals[:, drawn].mean(axis=2).argmax(axis=0)]
-    tail = (1 - LEVEL) / 2
-    ends = np.quantile(best, [tail, 1 - tail], method="inverted_cdf")
-    return int(ends[0]), int(ends[1])

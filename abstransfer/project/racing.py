@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..experiments.plan import SEED
-from ..experiments.stats import Interval, relative_gain
+from ..experiments.stats import Interval, gain_interval
 from ..learning import q_learning_runs
 from ..learning.settings import exact_seed, whole
 from ..mdp import check_rows
@@ -32,12 +32,10 @@ class Race(NamedTuple):
     strategy: str  #: "hard" or "soft"
     seed: int  #: of all runs
 
-    def gains(self, rng=0) -> dict[str, Interval]:
+    def gains(self) -> dict[str, Interval]:
         """Return by which share each robot exceeds "none": 0.1 is 10 % more goals."""
         none = self.goals["none"]
-        return {
-            name: relative_gain(self.goals[name], none, rng=rng) for name in self.guides
-        }
+        return {name: gain_interval(self.goals[name], none) for name in self.guides}
 
 
 def race(

@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
 from ..driving import BUILDERS
 from ..experiments.arms import STRATEGIES
 from ..experiments.results import Results
+from ..experiments.stats import LEVEL
 from .verdicts import ABSTRACT, Finding, combine
 
 MARGIN = 0.01  # "no better": by less than 1 %, about the spread between runs
@@ -141,7 +140,7 @@ CLAIMS = (
 )
 
 
-def ledger(results: Results, *, rng=0) -> tuple[Entry, ...]:
+def ledger(results: Results, *, level: float = LEVEL) -> tuple[Entry, ...]:
     """
     Return all claims, judged on the results of the nine arms.
 
@@ -150,12 +149,11 @@ def ledger(results: Results, *, rng=0) -> tuple[Entry, ...]:
     results : Results
         From :func:`~abstransfer.experiments.run.run_experiment` with ARMS, or with
         the same arms and other tau.
-    rng : int, SeedSequence or Generator
-        Draws the resamples of the intervals.
+    level : float
+        Of each interval; nearer to 1 where there are many.
     """
-    rng = np.random.default_rng(rng)
     entries = []
     for claim in CLAIMS:
-        findings = tuple(finding.measured(results, rng) for finding in claim.findings)
+        findings = tuple(finding.measured(results, level) for finding in claim.findings)
         entries.append(Entry(claim, findings, combine(findings)))
     return tuple(entries)

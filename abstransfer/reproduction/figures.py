@@ -13,7 +13,7 @@ import numpy as np
 
 from ..experiments.problem import GUIDES
 from ..experiments.results import RECORD, Results, load_results
-from ..experiments.stats import mean_interval
+from ..experiments.stats import t_interval
 from ..experiments.tuning import tune
 from ..plotting import figure, plot_boxes, plot_curves, plot_tau
 from .claims import Entry, ledger
@@ -120,11 +120,10 @@ def figure3(results: Results):
     return figure(plot_boxes, {a.name: results.totals(a.name) for a in results.arms})
 
 
-def figure4(results: Results, *, rng=0):
+def figure4(results: Results):
     """Return the picture of Figure 4: goals per window, means with bands."""
-    rng = np.random.default_rng(rng)
     curves = {arm.name: results.curves(arm.name) for arm in results.arms}
-    bands = {name: mean_interval(x, rng=rng)[1:] for name, x in curves.items()}
+    bands = {name: t_interval(x)[1:] for name, x in curves.items()}
     window = results.record["parameters"]["window"]
     return figure(plot_curves, curves, bands=bands, window=window)
 

@@ -22,10 +22,10 @@ from ..experiments.curves import (
 from ..experiments.results import Results
 from ..experiments.stats import (
     Interval,
+    gain_interval,
     iqm_interval,
-    mean_interval,
     probability_of_improvement,
-    relative_gain,
+    t_interval,
 )
 from ..experiments.tuning import Tuning
 from .claims import Entry
@@ -49,45 +49,43 @@ def is_grid(results: Results) -> bool:
     return len({arm.name for arm in results.arms}) < len(results.arms)
 
 
-def totals_table(results: Results, *, rng=0) -> list[dict]:
+def totals_table(results: Results) -> list[dict]:
     """Return Figure 3 as numbers: goals of a run, by arm; gains over Q-learning."""
-    rng, plain = np.random.default_rng(rng), results.totals("none")
-    rows = []
+    plain, rows = results.totals("none"), []
     for arm in results.arms:
         x = results.totals(arm.name)
         row = {"arm": arm.name, "tau": arm.tau, "runs": len(x)}
-        row |= _ends("mean", mean_interval(x, rng=rng), 1)
-        row |= _ends("iqm", iqm_interval(x, rng=rng), 1)
+        row |= _ends("mean", t_interval(x), 1)
+        row |= _ends("iqm", iqm_interval(x), 1)
         row |= {"standard_deviation": round(float(x.std(ddof=min(1, len(x) - 1))), 1)}
         quartiles = np.percentile(x, (0, 25, 50, 75, 100)).tolist()
         names = ("lowest", "quartile_1", "median", "quartile_3", "highest")
         row |= dict(zip(names, quartiles, strict=True))
-        row |= _ends("gain_over_q_learning", relative_gain(x, plain, rng=rng), 4)
-        chance = probability_of_improvement(x, plain, rng=rng)
-        rows.append(row | _ends("probability_of_improvement", chance, 4))
+        row |= _ends("gain_over_q_learning", gain_interval(x, plain), 4)
+        chance = probability_of_improvement(x, plain)
+        rows.append(row | {"probability_of_improvement": round(chance, 4)})
     return rows
 
 
-def curves_table(results: Results, *, rng=0) -> list[dict]:
+def curves_table(results: Results) -> list[dict]:
     """Return Figure 4 as numbers: mean goals by arm and window, with intervals."""
-    rng, window = np.random.default_rng(rng), _window(results)
-    rows = []
+    rows, window = [], _window(results)
     for arm in results.arms:
-        mean = mean_interval(results.curves(arm.name), rng=rng)
+        mean = t_interval(results.curves(arm.name))
         for w, ends in enumerate(zip(*mean, strict=True)):
             row = {"arm": arm.name, "steps": (w + 1) * window}
             rows.append(row | _ends("goals", Interval(*ends), 2))
     return rows
 
 
-def measures_table(results: Results, *, rng=0) -> list[dict]:
+def measures_table(results: Results) -> list[dict]:
     """
     Return the measures of transfer by arm, each with its interval.
 
     The threshold is half of the final level of Q-learning; a run that does not
     reach it counts with all its steps.
     """
-    rng, window = np.random.default_rng(rng), _window(results)
+    window = _window(results)
     plain = results.curves("none")
     threshold = asymptotic_level(plain).mean() / 2
     last = plain.shape[1] * window
@@ -95,13 +93,13 @@ def measures_table(results: Results, *, rng=0) -> list[dict]:
     for arm in results.arms:
         curves = results.curves(arm.name)
         steps = time_to_threshold(curves, threshold, window=window)
-        ratio = relative_gain(curves.sum(axis=1), plain.sum(axis=1), rng=rng)
+        ratio = gain_interval(curves.sum(axis=1), plain.sum(axis=1))
         measures = {
-            "jumpstart": mean_interval(jumpstart(curves, plain), rng=rng),
-            "final_level": mean_interval(asymptotic_level(curves), rng=rng),
+            "jumpstart": t_interval(jumpstart(curves, plain)),
+            "final_level": t_interval(asymptotic_level(curves)),
             "transfer_ratio": Interval(*(1 + x for x in ratio)),
-            "steps_to_threshold": mean_interval(np.minimum(steps, last), rng=rng),
-            "critical_point": mean_interval(critical_point(curves) * window, rng=rng),
+            "steps_to_threshold": t_interval(np.minimum(steps, last)),
+            "critical_point": t_interval(critical_point(curves) * window),
         }
         row = {"arm": arm.name}
         for name, interval in measures.items():
@@ -116,8 +114,6 @@ def tau_table(tunings: Iterable[Tuning]) -> list[dict]:
         {
             "arm": t.name,
             "best_tau": f"{t.best / MILLION:g}",
-            "low": f"{t.low / MILLION:g}",
-            "high": f"{t.high / MILLION:g}",
             "as_good": " ".join(f"{tau / MILLION:g}" for tau in t.as_good),
             "paper_tau": t.paper and f"{t.paper / MILLION:g}",
             "paper_inside": t.paper and ("no", "yes")[t.paper_inside],

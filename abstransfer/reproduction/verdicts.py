@@ -19,13 +19,12 @@ from ..experiments.arms import STRATEGIES
 from ..experiments.curves import SMOOTH, asymptotic_level, critical_point, rises
 from ..experiments.results import Results
 from ..experiments.stats import (
+    FEWEST,
     LEVEL,
-    RESAMPLES,
     Interval,
     gain_interval,
-    mean_interval,
-    paired_difference,
-    relative_gain,
+    rank_interval,
+    t_interval,
 )
 
 HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "undecided"
@@ -67,22 +66,10 @@ class Finding(NamedTuple):
         """HOLDS, FAILS or UNDECIDED."""
         return judge(self.effect, self.threshold, self.above)
 
-    def measured(self, results: Results, rng) -> Finding:
-        """Return the finding with the effect that results show."""
+    def measured(self, results: Results, level: float = LEVEL) -> Finding:
+        """Return the finding with the effect that results show, at a level."""
         measure = KINDS[self.kind].effect
-        return self._replace(effect=measure(results, self.a, self.b, rng))
-
-    def by_student(self, results: Results, level: float = LEVEL) -> Finding:
-        """
-        Return the finding with Student's interval, if it compares goals.
-
-        For few runs, of which a percentile bootstrap is too sure; and for many
-        looks, each at a level of its own.
-        """
-        if self.kind != "goals":
-            return self
-        a, b = results.totals(self.a), results.totals(self.b)
-        return self._replace(effect=gain_interval(a, b, level=level))
+        return self._replace(effect=measure(results, self.a, self.b, level))
 
 
 class Kind(NamedTuple):
@@ -91,7 +78,7 @@ class Kind(NamedTuple):
     words: str  #: how its text is made
     unit: str  #: of its effect
     #: how it is computed
-    effect: Callable[[Results, str, str, np.random.Generator], Interval] | None
+    effect: Callable[[Results, str, str, float], Interval] | None
 
 
 def judge(effect: Interval, threshold: float, above: bool = True) -> str:
@@ -129,16 +116,16 @@ def combine(findings: Iterable[Finding]) -> str:
     return HOLDS if main and set(verdicts) == {HOLDS} else UNDECIDED
 
 
-def _goals(results, a, b, rng) -> Interval:
-    return relative_gain(results.totals(a), results.totals(b), rng=rng)
+def _goals(results, a, b, level) -> Interval:
+    return gain_interval(results.totals(a), results.totals(b), level)
 
 
-def _executed(results, a, b, rng) -> Interval:
+def _executed(results, a, b, level) -> Interval:
     value = results.record["executed"]  # exact, so the interval is a point
     return Interval(*[value[a] - value[b]] * 3)
 
 
-def _rise(results, arm, _, rng) -> Interval:
+def _rise(results, arm, _, level) -> Interval:
     """By how much the steepest rise exceeds twice that of a steady climb."""
     # Found in one half of the runs and measured in the other: the steepest
     # rise of noise would else look like one.
@@ -149,44 +136,40 @@ def _rise(results, arm, _, rng) -> Interval:
     place = critical_point(found.mean(axis=0))
     rise = rises(measured)[:, place - SMOOTH]
     climb = asymptotic_level(measured) - measured[:, :SMOOTH].mean(axis=1)
-    steady = climb * SMOOTH / (curves.shape[1] - SMOOTH)
-    return paired_difference(rise, 2 * steady, rng=rng)
+    return t_interval(rise - 2 * climb * SMOOTH / (curves.shape[1] - SMOOTH), level)
 
 
-def _order(results, _, __, rng) -> Interval:
+def _order(results, _, __, level) -> Interval:
     """Return Kendall's tau-a of critical point and final level over the arms."""
     curves = [results.curves(arm) for arm in ("none", *ABSTRACT)]
-    when, level = (
-        np.stack(list(map(measure, curves)))
+    when, end = (
+        np.array([measure(of).mean() for of in curves])
         for measure in (critical_point, asymptotic_level)
     )
-    n_runs = when.shape[1]
-    drawn = rng.integers(0, n_runs, (RESAMPLES, n_runs))
-    order = _concordance(when[:, drawn].mean(axis=2), level[:, drawn].mean(axis=2))
-    ends = (np.nan, np.nan)
-    if n_runs > 1:
-        ends = np.quantile(order, [(1 - LEVEL) / 2, (1 + LEVEL) / 2]).tolist()
-    all_runs = _concordance(when.mean(axis=1), level.mean(axis=1))
-    return Interval(float(all_runs), *ends)
+    order = _concordance(when, end)
+    if len(curves[0]) < FEWEST:
+        return UNKNOWN._replace(estimate=order)
+    # The question is about arms, so they are what there are n of, not runs.
+    return rank_interval(order, len(curves), level)
 
 
-def _concordance(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return Kendall's tau-a of x and y over their first axis."""
+def _concordance(x: np.ndarray, y: np.ndarray) -> float:
+    """Return Kendall's tau-a of x and y, both (n,)."""
     first, second = np.triu_indices(len(x), 1)
     signs = np.sign(x[first] - x[second]) * np.sign(y[first] - y[second])
-    return signs.mean(axis=0)
+    return float(signs.mean())
 
 
-def _end(results, arm, _, rng) -> Interval:
-    level = {name: asymptotic_level(results.curves(name)) for name in (arm, *ABSTRACT)}
-    best = max(ABSTRACT, key=lambda name: level[name].mean())
-    return relative_gain(level[arm], level[best], rng=rng)
+def _end(results, arm, _, level) -> Interval:
+    ends = {name: asymptotic_level(results.curves(name)) for name in (arm, *ABSTRACT)}
+    best = max(ABSTRACT, key=lambda name: ends[name].mean())
+    return gain_interval(ends[arm], ends[best], level)
 
 
-def _delay(results, a, b, rng) -> Interval:
+def _delay(results, a, b, level) -> Interval:
     window = results.record["parameters"]["window"]
     when, before = (critical_point(results.curves(arm)) * window for arm in (a, b))
-    return mean_interval(when - before, rng=rng)
+    return t_interval(when - before, level)
 
 
 KINDS = {
@@ -194,7 +177,7 @@ KINDS = {
     "driving": Kind("{a} over {b}, executed without learning", "reward", _executed),
     "rise": Kind("{a}", "goals per window", _rise),
     "order": Kind(
-        "rank correlation of critical point and final level, 7 arms", "", _order
+        "rank correlation of critical point and final level, n = 7 arms", "", _order
     ),
     "end": Kind("{a} over the abstract arm that ends best", "ratio", _end),
     "delay": Kind("critical point of {a} after {b}", "steps", _delay),

@@ -29,7 +29,7 @@ def test_a_clear_peak_is_found_for_sure():
     hard, soft = tune(grid(peak, noise=1))
 
     assert (hard.name, soft.name) == ("nd-hard", "nd-soft")
-    assert hard.best == hard.low == hard.high == 3_500_000
+    assert hard.best == 3_500_000
     assert hard.as_good == (3_500_000,)
     assert hard.taus.tolist() == list(TAUS)
     assert hard.goals.estimate.argmax() == TAUS.index(3_500_000)
@@ -50,9 +50,8 @@ def test_whether_the_papers_tau_is_the_best_follows_from_the_interval():
 def test_a_flat_top_leaves_the_choice_open():
     hard, soft = tune(grid(lambda tau: 1000, noise=20))
 
-    assert hard.low < hard.high
-    assert soft.low < soft.high
     assert len(hard.as_good) > 3
+    assert len(soft.as_good) > 3
 
 
 def test_the_set_of_good_tau_holds_the_true_best_as_often_as_it_says():

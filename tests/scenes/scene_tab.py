@@ -9,6 +9,7 @@ import pytest
 
 from abstransfer.scenes import KINDS, bundle
 from abstransfer.scenes import files as front
+from abstransfer.scenes.parts.student import STUDENT
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 PAGE = """<!doctype html>
@@ -242,7 +243,8 @@ def scripts(body):
 @cache
 def probe():
     """A script that puts parts of the front end into the object `probe` of a page."""
-    said = front.said(spec=KINDS["microscope"].spec(), isWidget=True)
+    spec = KINDS["microscope"].spec() | {"student": STUDENT}
+    said = front.said(spec=spec, isWidget=True)
     return f"((python) => {{\n{bundle.bundle_one(PROBE)}}})({said})"
 
 

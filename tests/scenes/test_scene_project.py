@@ -5,7 +5,7 @@ import pytest
 from scene_tab import bare, number
 
 from abstransfer.abstraction import FEATURES
-from abstransfer.experiments.stats import paired_difference
+from abstransfer.experiments.stats import t_interval
 from abstransfer.maps import parse_map, read_map
 from abstransfer.project.card import card_text, verify
 from abstransfer.project.setup import GUIDES, Setup, drives, run, scale
@@ -90,7 +90,7 @@ def test_a_race_in_the_school_is_pythons_to_the_last_goal(open_scene):
     assert "You bet on “all of them”; it was “none”." in tab.closing
     chart = tab.root.locator(".ab-chart").text_content().replace("\u2212", "-")
     for name in NAMES:
-        more = paired_difference(goals[name], goals["none"], rng=0)
+        more = t_interval(goals[name] - goals["none"])
         mean, low, high = (f"{half_up(x):+,}" for x in more)
         assert f"{NAMES[name]}{mean} [{low}, {high}]" in chart
     assert tab.problems == []

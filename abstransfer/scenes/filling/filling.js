@@ -1,7 +1,7 @@
 // Box plots fill run by run, page 9: sign a claim when you would; then see what all
 // runs say, and how a reader fares who stops as soon as an interval leaves 0.
 
-import { interval, quantile } from "../parts/bootstrap.js";
+import { meanInterval, quantile } from "../parts/student.js";
 import { runRows } from "../parts/rows.js";
 import { choice } from "../ui/controls.js";
 import { armStyle, count, make, number } from "../ui/dom.js";
@@ -11,7 +11,7 @@ import { combine, findingsOf, HOLDS, SAME, UNDECIDED, verdictsOf } from "./verdi
 const CLAIMS = { 1: "1", 2: "2", 3: "3", 4: "4", 5: "5", [SAME]: "each arm against itself" };
 const ORDERS = { 0: "as run", 1: "shuffled 1", 2: "shuffled 2", 3: "shuffled 3", 4: "shuffled 4" };
 const BETS = {
-  few: [5, "2 to 5 runs"],
+  few: [5, "5 runs"],
   some: [15, "6 to 15"],
   many: [30, "16 to 30"],
   most: [50, "more than 30"],
@@ -71,9 +71,9 @@ defineScene("filling", {
       const looks = `who looks after each run from run ${data.firstLook} on, and signs as soon as`;
       if (claim === SAME) {
         return (
-          `You signed after ${signed} runs. Each arm was compared with itself, so there is nothing to sign. ` +
+          `You signed after ${signed} runs. Each arm was compared with itself, with other luck, so there is nothing to sign. ` +
           `But a reader ${looks} the interval leaves 0, signs ${n.length} of ${found.stops.length} comparisons ` +
-          `(nine arms, five orders): ${
+          `(nine arms, their runs dealt in halves in five ways): ${
             number((100 * n.length) / found.stops.length, 0)
           } % wrong, where one look is wrong in 5 %. Fix the number of runs before you look.`
         );
@@ -97,13 +97,13 @@ defineScene("filling", {
     const verdict = (n) => combine(findingsOf(state.data, state.claim, state.order, n));
 
     return function draw(state, changed) {
-      const { data, claim, n } = state;
+      const { data, claim } = state;
       if (!data.totals) return;
       const runs = data.lives[0].length;
-      if (changed.has("data")) {
-        scene.limit("n", [2, runs]);
-        scene.limit("signed", [0, runs]);
-      }
+      const looks = claim === SAME ? Math.floor(runs / 2) : runs;
+      const n = Math.min(state.n, looks);
+      if (changed.has("data")) scene.limit("signed", [0, runs]);
+      if (changed.has("data") || changed.has("claim")) scene.limit("n", [data.firstLook, looks]);
       const isNew = ["claim", "order", "data"].some((name) => changed.has(name));
       if (isNew && !changed.has("signed")) scene.set({ signed: 0 });
 
@@ -112,7 +112,8 @@ defineScene("filling", {
         const goals = lives.map((life) => data.totals[i][life]);
         const sorted = [...goals].sort((a, b) => a - b);
         const box = [0, 0.25, 0.5, 0.75, 1].map((share) => quantile(sorted, share));
-        return { arm, name: nameOf(arm), runs: goals, box, interval: interval(goals), lit: true };
+        const interval = meanInterval(goals);
+        return { arm, name: nameOf(arm), runs: goals, box, interval, lit: true };
       });
       const all = data.totals.flat();
       const bounds = {
@@ -133,7 +134,7 @@ defineScene("filling", {
 
       const isSame = claim === SAME;
       title.textContent = isSame
-        ? "A trap: each arm against itself, its runs shuffled twice. Nothing can be found here."
+        ? "A trap: one half of each arm's runs against the other half. Nothing can be found here."
         : `Claim ${claim}: ${data.claims[claim].title}.`;
       compared.hidden = judged.hidden = !state.bet;
       const findings = state.bet ? findingsOf(data, claim, state.order, n) : [];
@@ -167,7 +168,7 @@ defineScene("filling", {
       effects.describe(now.textContent);
       if (state.bet && changed.has("n")) scene.say(now.textContent);
       scene.twin(() => ({
-        caption: `After ${n} of ${runs} runs, ${
+        caption: `After ${n} of ${looks} runs, ${
           ORDERS[state.order]
         }: mean goals of a run, then effects, each with its 95 % interval.`,
         head: ["of", "estimate", "low", "high", "verdict"],

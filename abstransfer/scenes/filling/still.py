@@ -1,16 +1,16 @@
-"""The still of the filling boxes: box plots after 3, 10 and all runs."""
+"""The still of the filling boxes: box plots after 5, 10 and all runs."""
 
 from __future__ import annotations
 
 from ...experiments.results import read_results
-from ...experiments.stats import mean_interval
+from ...experiments.stats import t_interval
 from ...reproduction.optional_stopping import FIRST_LOOK, SAME
 from ..base import Still
 from ..parts.charts import Axis, Row, row_chart
 from ..parts.svg import look_of, short
 from .widget import Filling
 
-FRAMES = (3, 10)  # runs of the first two pictures; the last shows all
+FRAMES = (5, 10)  # runs of the first two pictures; the last shows all
 
 
 def draw(scene: Filling) -> Still:
@@ -19,10 +19,7 @@ def draw(scene: Filling) -> Still:
     taken = [order[:n] for n in (*FRAMES, len(order))]
     goals = {arm.name: results.totals(arm.name) for arm in results.arms}
     ends = [float(f(map(f, goals.values()))) for f in (min, max)]
-    means = [
-        {arm: mean_interval(x[some], rng=0) for arm, x in goals.items()}
-        for some in taken
-    ]
+    means = [{arm: t_interval(x[some]) for arm, x in goals.items()} for some in taken]
     frames = []
     for some, mean in zip(taken, means, strict=True):
         boxes = [
@@ -42,8 +39,9 @@ def draw(scene: Filling) -> Still:
     caption = (
         f"When would you sign? Claim 1 comes out as \u201c{found.verdict}\u201d "
         f"from {found.settled} runs on, in each of {len(found.stops)} orders of "
-        f"{len(order)} runs. But of {len(trap.stops)} comparisons of an arm with "
-        f"itself, a reader who looks after each run from run {FIRST_LOOK} on, "
+        f"{len(order)} runs. But of {len(trap.stops)} comparisons of one half of an "
+        f"arm's runs with the other half, a reader who looks after each run from run "
+        f"{FIRST_LOOK} on, "
         f"and signs as soon as the interval leaves 0, signs {signed}: "
         f"{signed / len(trap.stops):.0%}."
     )

@@ -1,6 +1,6 @@
 // What the first runs of arms say of a claim, as Python's `claims` does.
 
-import { interval } from "../parts/bootstrap.js";
+import { gainInterval } from "../parts/student.js";
 
 export const SAME = "same"; // the claim that compares each arm with itself
 export const [HOLDS, FAILS, UNDECIDED, IN_PART] = [
@@ -26,13 +26,15 @@ export function combine(findings) {
   return findings.every((f) => f.verdict === HOLDS) ? HOLDS : UNDECIDED;
 }
 
-// The data of Python: arms, totals (arms, N), lives and partners (orders, N), claims.
-export function findingsOf({ arms, totals, lives, partners, claims }, key, order, n) {
-  const first = (arm, from) => from[order].slice(0, n).map((i) => totals[arms.indexOf(arm)][i]);
+// The data of Python: arms, totals (arms, N), lives (orders, N), claims.
+export function findingsOf({ arms, totals, lives, claims }, key, order, n) {
+  const half = key === SAME ? Math.floor(lives[order].length / 2) : 0;
+  const taken = (arm, from) =>
+    lives[order].slice(from, from + n).map((i) => totals[arms.indexOf(arm)][i]);
   return claims[key].compared.map(([text, a, b, threshold, above, main, fixed]) => {
     const effect = fixed !== null
       ? [fixed, fixed, fixed]
-      : interval(first(a, lives), first(b, key === SAME ? partners : lives));
+      : gainInterval(taken(a, 0), taken(b, half));
     return { text, a, b, main, fixed, effect, verdict: judge(effect, threshold, above) };
   });
 }

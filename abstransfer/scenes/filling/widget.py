@@ -20,6 +20,7 @@ from ...reproduction.optional_stopping import (
 )
 from ...reproduction.verdicts import Finding
 from ..base import Scene
+from ..parts.student import STUDENT
 
 RUNS = 50
 NINE = tuple(
@@ -38,11 +39,11 @@ class Filling(Scene):
     results : str
         Name of stored results of the nine arms, as ``read_results`` takes it.
     claim : {"1", "2", "3", "4", "5", "same"}
-        What is judged; "same" compares each arm with itself.
+        What is judged; "same" compares one half of each arm's runs with the other.
     order : int, 0 to 4
         0: the runs as they ran; else a shuffle of them.
-    n : int, 2 to 50
-        Runs that are shown.
+    n : int, 5 to 50
+        Runs that are shown; fewer have no interval.
     signed : int
         Runs after which the reader signed; 0 before.
 
@@ -54,14 +55,15 @@ class Filling(Scene):
     >>> scene.verdict()  # after 10 runs
     'fails in part'
     >>> scene.reading("2").settled  # runs from which on no order says otherwise
-    4
+    5
     """
 
     scene = "filling"
+    constants = {"student": STUDENT}
     results = traitlets.Enum(NINE, "goal-target").tag(sync=True)
     claim = traitlets.Enum(KEYS, "1").tag(sync=True)
     order = traitlets.Int(0, min=0, max=4).tag(sync=True)
-    n = traitlets.Int(3, min=2, max=RUNS).tag(sync=True)
+    n = traitlets.Int(FIRST_LOOK, min=FIRST_LOOK, max=RUNS).tag(sync=True)
     signed = traitlets.Int(0, min=0, max=RUNS).tag(sync=True)
     bet = traitlets.Unicode("").tag(sync=True, local=True)
     data = traitlets.Dict().tag(sync=True, local=True)  # follows `results`
@@ -85,7 +87,8 @@ class Filling(Scene):
 
     def verdict(self, n: int | None = None) -> str:
         """Return the verdict on `claim` after `n` runs, in the order of the scene."""
-        return _verdicts(self.results, self.claim)[self.order][(n or self.n) - 2]
+        track = _verdicts(self.results, self.claim)[self.order]
+        return track[min((n or self.n) - FIRST_LOOK, len(track) - 1)]
 
     def reading(self, key: str) -> Stops:
         """Return what a reader does who looks after each run, in five orders."""
@@ -96,13 +99,11 @@ class Filling(Scene):
 def _data(name: str) -> dict:
     """Return all that the browser needs of stored results."""
     results = read_results(name)
-    lives, partners = orders(results.goals.shape[1])
     titles = {claim.key: claim.title for claim in CLAIMS}
     return {
         "arms": [arm.name for arm in ARMS],
         "totals": [results.totals(arm.name).tolist() for arm in ARMS],
-        "lives": lives.tolist(),
-        "partners": partners.tolist(),
+        "lives": orders(results.goals.shape[1]).tolist(),
         "firstLook": FIRST_LOOK,
         "readings": {key: read_along(_verdicts(name, key))._asdict() for key in KEYS},
         "claims": {

@@ -61,8 +61,12 @@ export function runRows(label) {
       if (interval) {
         const [mid, low, high] = interval.map(px);
         const top = middle + (box ? 8 : 0);
+        if (interval[1] <= interval[2]) {
+          parts.push(
+            path(`M${low} ${top + 5}H${high}M${low} ${top}v10M${high} ${top}v10`, "ab-interval"),
+          );
+        }
         parts.push(
-          path(`M${low} ${top + 5}H${high}M${low} ${top}v10M${high} ${top}v10`, "ab-interval"),
           path(
             `M${mid} ${top}l5 5l-5 5l-5-5Z`,
             "ab-marker",

@@ -71,7 +71,7 @@ defineScene("project", {
     const key = make(
       "p",
       { class: "ab-ylabel" },
-      "Dots: runs. Box: their quarters. Diamond: their mean, with a 95 % interval.",
+      "Dots: runs. Box: their quarters. Diamond: their mean, with a 95 % interval if there are five runs.",
     );
     const start = button("", () => race(), { primary: true });
     const stop = button("Stop", () => (scene.stop(), (isWanted = false), scene.redraw()));

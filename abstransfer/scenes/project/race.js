@@ -8,7 +8,7 @@ import { abstractStates, FEATURES, navigationTasks } from "../engine/navigation.
 import { PAPER_STEPS } from "../engine/paper.js";
 import { inducedPolicies, randomPolicy, uniformPolicy } from "../engine/policies.js";
 import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
-import { interval as around, quantile } from "../parts/bootstrap.js";
+import { meanInterval, quantile } from "../parts/student.js";
 import { mapTexts, paper, spec } from "../python.js";
 import { count } from "../ui/dom.js";
 
@@ -99,14 +99,14 @@ export function picture(robots) {
   const signed = (n) => `${n > 0 ? "+" : ""}${count(n)}`;
   const items = robots.map((robot) => {
     const sorted = [...robot.runs].sort((a, b) => a - b);
-    const interval = around(robot.runs);
+    const interval = meanInterval(robot.runs);
     const [mean, low, high] = interval.map(signed);
     const box = [0, 0.25, 0.5, 0.75, 1].map((share) => quantile(sorted, share));
     return {
       ...robot,
       box,
       interval,
-      text: sorted.length > 1 ? `${mean} [${low}, ${high}]` : mean,
+      text: interval[1] <= interval[2] ? `${mean} [${low}, ${high}]` : mean,
     };
   });
   const all = [0, 1, ...robots.flatMap(({ runs }) => runs)];

@@ -13,6 +13,7 @@ from ...project.racing import Race
 from ...project.setup import ADVICE, GUIDES, PAPER_ENTRIES, PAPER_TAU, Setup, run
 from ..base import MapTrait
 from ..parts.drawn import DrawnScene
+from ..parts.student import STUDENT
 from ..parts.svg import look_of
 
 TOOLS = ("wall", "door", "room", "corridor", "goal")
@@ -70,7 +71,7 @@ class Project(DrawnScene):
     """
 
     scene = "project"
-    constants = {"entries": PAPER_ENTRIES, "tauShare": PAPER_TAU}
+    constants = {"entries": PAPER_ENTRIES, "tauShare": PAPER_TAU, "student": STUDENT}
     map = MapTrait(SCHOOL).tag(sync=False)
     text = traitlets.Unicode(SCHOOL).tag(sync=True)
     tool = traitlets.Enum(TOOLS, "wall").tag(sync=True)

@@ -8,7 +8,7 @@ import * as solvers from "../../../abstransfer/scenes/engine/solvers.js";
 import * as verdicts from "../../../abstransfer/scenes/filling/verdicts.js";
 import * as land from "../../../abstransfer/scenes/hill/land.js";
 import * as runs from "../../../abstransfer/scenes/microscope/runs.js";
-import * as bootstrap from "../../../abstransfer/scenes/parts/bootstrap.js";
+import * as student from "../../../abstransfer/scenes/parts/student.js";
 import * as waves from "../../../abstransfer/scenes/ripple/waves.js";
 import * as lines from "../../../abstransfer/scenes/ui/lines.js";
 import * as scene from "../../../abstransfer/scenes/ui/scene.js";
@@ -21,7 +21,7 @@ globalThis.probe = {
   ...paper,
   ...solvers,
   ...verdicts,
-  ...bootstrap,
+  ...student,
   ...lines,
   ...scene,
   mapTexts,
