@@ -90,12 +90,13 @@ def can_arrive(mdp: MDP, policy: np.ndarray) -> np.ndarray:
 
 
 class Notes(NamedTuple):
-    """What a table of Q holds when the guide leaves, mean over runs."""
+    """What a table of Q holds when the guide leaves: each (N,), a number per run."""
 
-    goals: float  #: goals reached so far
-    tried: float  #: share of non-terminal states' actions ever taken
-    informed: float  #: share of non-terminal states with a note above 0
-    skill: float  #: value of obeying the notes, as a share of the best value
+    goals: np.ndarray  #: goals reached so far
+    tried: np.ndarray  #: share of non-terminal states' actions ever taken
+    noted: np.ndarray  #: share of non-terminal states with a note above 0
+    skill: np.ndarray  #: value of obeying the notes, as a share of the best value
+    ready: np.ndarray  #: see :func:`ready`
 
 
 def notes_after(
@@ -104,13 +105,14 @@ def notes_after(
     """
     Return what is noted after `tau` steps in which the guide (S, A) decides alone.
 
-    For rewards of 0 and more, that is for notes which 0 does not flatter.  To
-    obey the notes is to take one of the largest, all alike.
+    A number per generator in `rngs`.  For rewards of 0 and more, that is for notes
+    which 0 does not flatter.  To obey the notes is to take one of the largest, all
+    alike.
 
     >>> mdp = MDP([[[1]], [[2]], [[2]]], np.ones((3, 1, 1)), [0, 0, 1],
     ...           [False, False, True], 0.9)
-    >>> notes_after(mdp, np.ones((3, 1)), 100, rngs=[0]).informed
-    1.0
+    >>> notes_after(mdp, np.ones((3, 1)), 100, rngs=[0, 1]).noted
+    array([1., 1.])
     """
     guide = check_policy(guide, mdp, "guide")
     if mdp.reward.min() < 0:
@@ -125,13 +127,14 @@ def notes_after(
     game = replace(mdp, gamma=gamma)
     best = optimal_values(game)[way].mean()
     tried = [(run.q != above)[way][mdp.allowed[way]].mean() for run in walks]
-    informed = [(run.q.max(axis=1) > 0)[way].mean() for run in runs]
+    noted = [(run.q.max(axis=1) > 0)[way].mean() for run in runs]
     skill = [
         evaluate_policy(game, obeyed(run.q, mdp.allowed))[way].mean() / best
         for run in runs
     ]
     goals = [run.goals.sum() for run in runs]
-    return Notes(*(float(np.mean(x)) for x in (goals, tried, informed, skill)))
+    able = [ready(mdp, run.q) for run in runs]
+    return Notes(*map(np.array, (goals, tried, noted, skill, able)))
 
 
 def obeyed(q: np.ndarray, allowed: np.ndarray, epsilon: float = 0.0) -> np.ndarray:

@@ -81,11 +81,13 @@ def test_notes_of_a_walk_that_is_known_step_by_step():
     found = notes_after(line, guide, 300, rngs=range(4), gamma=0.5)
     none = notes_after(line, np.tile([0.0, 1.0], (4, 1)), 300, rngs=[0], gamma=0.5)
 
-    assert found.tried == 0.5  # one of two actions, everywhere
-    assert found.informed == 1
-    assert found.skill == pytest.approx(1)
-    assert 100 <= found.goals <= 300  # of one to three steps each
-    assert (none.goals, none.informed) == (0, 0)
+    assert [len(of) for of in found] == [4] * 5  # a number per run
+    assert (found.tried == 0.5).all()  # one of two actions, everywhere
+    assert (found.noted == 1).all()
+    assert found.skill == pytest.approx(np.ones(4))
+    assert found.ready == pytest.approx(np.ones(4))
+    assert ((100 <= found.goals) & (found.goals <= 300)).all()  # of 1 to 3 steps each
+    assert (none.goals, none.noted) == (0, 0)
     assert none.tried == pytest.approx(1 / 6)  # it stays in its first cell
     # Blank notes are obeyed by tossing a coin: V(s) = gamma (V(s) + V(s+1)) / 2,
     v = np.array([1 / 27, 1 / 9, 1 / 3])  # that is V(s+1) / 3
