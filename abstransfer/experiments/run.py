@@ -15,17 +15,18 @@ from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from importlib import metadata
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from ..driving import executed_values
 from ..learning.settings import whole
 from .arms import ARMS, Arm, Scale
-from .plan import SEED, Plan, make_jobs, make_plan, parameters
+from .plan import SEED, make_jobs, make_plan, parameters
 from .problem import Problem, driving_tasks
 from .results import Results, load_results
 from .store import Store, claim
-from .workers import MOST_WORKERS, run_jobs
+from .workers import MOST_WORKERS, run_job, run_jobs
 
 
 def run_experiment(
@@ -89,12 +90,58 @@ def run_experiment(
     plan = make_plan(
         arms, problem, scale, n_runs, seed=seed, stream=stream, guides=guides
     )
+    return carry_out(
+        Work(
+            plan.arms,
+            plan.shape,
+            plan.scale.steps,
+            parameters(plan),
+            run_job,
+            lambda done: make_jobs(plan, done),
+            lambda store, key, outcome: store.save(*key, *outcome),
+            lambda store: {
+                "executed": executed_values(driving_tasks(plan.problem), plan.guides)
+            },
+        ),
+        executor=executor,
+        n_workers=n_workers,
+        out=out,
+        on_progress=on_progress,
+    )
+
+
+class Work(NamedTuple):
+    """Runs of arms, of any kind, and how they are done and kept."""
+
+    arms: tuple[Arm, ...]  #: what is compared
+    shape: tuple[int, int, int]  #: of the goals: arms, N runs, B windows
+    steps: int  #: of a run
+    parameters: dict  #: all that the goals depend on, for JSON
+    do: Callable  #: what a worker does with a job, and returns
+    jobs: Callable  #: keys and jobs that remain, from what is done (arms, N)
+    keep: Callable  #: puts the key and the outcome of a job into the store
+    learned: Callable  #: what else the record says, from the store
+
+
+def carry_out(
+    work: Work,
+    *,
+    executor: Executor | None = None,
+    n_workers: int | None = None,
+    out: str | Path | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
+) -> Results:
+    """
+    Do what remains of a work, and return its results; see :func:`run_experiment`.
+
+    What `out` holds afterwards is the experiment that its record names.
+    """
     if n_workers is not None:
         n_workers = whole("n_workers", n_workers, 1, MOST_WORKERS)
     if out is None:
-        store = Store(plan.shape)
+        store = Store(work.shape)
     else:
-        store = claim(out, parameters(plan), plan.shape)
+        store = claim(out, work.parameters, work.shape)
         if store is None:  # it has finished
             return load_results(out)
     with store:
@@ -102,30 +149,32 @@ def run_experiment(
 
         def tell():
             if on_progress:
-                on_progress(int(store.done.sum()) * plan.scale.steps, plan.n_steps)
+                on_progress(int(store.done.sum()) * work.steps, n_steps)
 
-        def keep(key, goals, seconds):
-            store.save(*key, goals, seconds)
+        def keep(key, outcome):
+            work.keep(store, key, outcome)
             tell()
 
+        n_steps = work.shape[0] * work.shape[1] * work.steps
         tell()
-        run_jobs(dict(make_jobs(plan, store.done)), executor, n_workers, keep)
+        jobs = dict(work.jobs(store.done))
+        run_jobs(work.do, jobs, executor, n_workers, keep)
         wall = None if resumed else time.perf_counter() - began
-        results = Results(plan.arms, store.goals, _record(plan, store.seconds, wall))
+        record = {"parameters": work.parameters} | work.learned(store)
+        record |= _spent(store.seconds, wall, n_steps)
+        results = Results(work.arms, store.goals, record)
         store.finish(results)
     return results
 
 
-def _record(plan: Plan, seconds: float, wall: float | None) -> dict:
+def _spent(seconds: float, wall: float | None, n_steps: int) -> dict:
     """Return what made the results; no path, no name of a machine."""
     packages = ("abstransfer", "numpy", "scipy", "numba")
     return {
-        "parameters": parameters(plan),
-        "executed": executed_values(driving_tasks(plan.problem), plan.guides),
         "seconds": {
             "cores": round(seconds, 2),
             "wall": wall and round(wall, 2),  # None if it was interrupted
-            "ns_per_step": round(1e9 * seconds / plan.n_steps, 2),
+            "ns_per_step": round(1e9 * seconds / n_steps, 2),
         },
         "versions": {"python": platform.python_version()}
         | {package: metadata.version(package) for package in packages},

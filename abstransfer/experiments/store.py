@@ -47,6 +47,7 @@ class Store:
         self.goals = np.zeros(shape, dtype=np.int64)  # (arms, N, B)
         self.done = np.zeros(shape[:2], dtype=bool)  # (arms, N)
         self.seconds = 0.0  # that the runs which are done took
+        self.measures = {}  # what else is known of them, by (arm, first run)
 
     def __enter__(self):
         return self
@@ -54,11 +55,18 @@ class Store:
     def __exit__(self, *_):
         pass
 
-    def save(self, arm: int, run: int, goals: np.ndarray, seconds: float) -> None:
-        """Keep goals (n, B) of runs run..run+n-1 of an arm, and what they took."""
+    def save(
+        self, arm: int, run: int, goals: np.ndarray, seconds: float, **measures
+    ) -> None:
+        """
+        Keep goals (n, B) of runs run..run+n-1 of an arm, and what they took.
+
+        And what else was measured of them, by name, for JSON.
+        """
         self.goals[arm, run : run + len(goals)] = goals
         self.done[arm, run : run + len(goals)] = True
         self.seconds += seconds
+        self.measures[arm, run] = measures
 
     def finish(self, results: Results) -> None:
         """Keep the results."""
@@ -91,10 +99,10 @@ class FolderStore(Store):
     def __exit__(self, *_):
         self.file.close()  # and the lock goes
 
-    def save(self, arm, run, goals, seconds):
+    def save(self, arm, run, goals, seconds, **measures):
         part = {"arm": arm, "run": run, "goals": goals.tolist(), "seconds": seconds}
-        self._append(part, self.key)
-        super().save(arm, run, goals, seconds)
+        self._append(part | measures, self.key)
+        super().save(arm, run, goals, seconds, **measures)
 
     def finish(self, results):
         save_results(self.folder, results)

@@ -28,6 +28,12 @@ SLICE = 5_000_000  # steps after which a job hears that it is to stop
 STOP = threading.Event()  # set in a worker process whose parent wants no more
 
 
+def heed_stop(n_steps: int = 0) -> None:
+    """Raise InterruptedError in a worker whose parent wants no more."""
+    if STOP.is_set():
+        raise InterruptedError("the experiment was interrupted")
+
+
 class Job(NamedTuple):
     """Some runs of one arm: all that a worker needs to know."""
 
@@ -51,8 +57,7 @@ def run_job(
     from ..learning import Learner
 
     def go_on(n_steps: int) -> None:
-        if STOP.is_set():
-            raise InterruptedError("the experiment was interrupted")
+        heed_stop()
         if on_progress:
             on_progress(n_steps)
 
@@ -80,13 +85,14 @@ def run_job(
 
 
 def run_jobs(
-    jobs: Mapping[Hashable, Job],
+    do: Callable,
+    jobs: Mapping[Hashable, object],
     executor: Executor | None,
     n_workers: int | None,
-    on_result: Callable[[Hashable, np.ndarray, float], None],
+    on_result: Callable[[Hashable, object], None],
 ) -> None:
     """
-    Run all jobs; hand the key and the outcome of each to `on_result`, as it comes.
+    Do all jobs; hand the key and the outcome of each to `on_result`, as it comes.
 
     Without `executor`, a pool of processes is made, which ends with the call,
     with an interrupt, and with this process, however that ends.
@@ -94,7 +100,7 @@ def run_jobs(
     if not jobs:
         return
     if executor is not None:
-        futures = _submit(jobs, executor)
+        futures = _submit(do, jobs, executor)
         try:
             return _collect(futures, on_result)
         finally:
@@ -110,7 +116,7 @@ def run_jobs(
             n_workers, context, initializer=_start_worker, initargs=(reader,)
         )
         with _interrupts_held():  # by the workers for good: Ctrl-C is for the parent
-            futures = _submit(jobs, pool)
+            futures = _submit(do, jobs, pool)
         _collect(futures, on_result)
     except (BrokenProcessPool, OSError) as error:
         if futures is None:
@@ -127,13 +133,13 @@ def run_jobs(
                 pool.shutdown(cancel_futures=True)
 
 
-def _submit(jobs, executor) -> dict:
-    return {executor.submit(run_job, job): key for key, job in jobs.items()}
+def _submit(do, jobs, executor) -> dict:
+    return {executor.submit(do, job): key for key, job in jobs.items()}
 
 
 def _collect(futures, on_result) -> None:
     for future in as_completed(futures):
-        on_result(futures[future], *future.result())
+        on_result(futures[future], future.result())
 
 
 @contextmanager
