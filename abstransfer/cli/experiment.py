@@ -66,13 +66,14 @@ def run(arguments) -> int:
     elif (arguments.reward, arguments.target) != ("goal", "target"):
         raise ValueError("--everything has its own --reward and --target")
     bars = _Bars(arguments.jobs)
+    runs = {} if arguments.runs is None else {"n_runs": arguments.runs}
     try:
         reproduce(
             arguments.out,
             experiments=experiments,
             problem=problem_of(arguments, arguments.target),
             scale=arguments.scale,
-            n_runs=arguments.runs,
+            **runs,
             seed=arguments.seed,
             n_workers=arguments.jobs,
             on_start=lambda experiment: bars.new(experiment.folder),

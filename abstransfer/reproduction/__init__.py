@@ -8,7 +8,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submodules=["figures", "hypotheses", "traps"],
     submod_attrs={
-        "catalogue": ["BETAS", "EXPERIMENTS", "SHARES", "make_guides", "reproduce"],
+        "catalogue": ["EXPERIMENTS", "reproduce"],
+        "guides": ["BETAS", "SHARES", "make_guides"],
         "claims": ["CLAIMS", "ledger"],
         "verdicts": ["combine", "judge"],
         "tables": ["measures_table", "to_markdown", "totals_table"],

@@ -8,6 +8,7 @@ teaches this module.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from ..driving import BUILDERS
@@ -140,7 +141,9 @@ CLAIMS = (
 )
 
 
-def ledger(results: Results, *, level: float = LEVEL) -> tuple[Entry, ...]:
+def ledger(
+    results: Results, *, claims: Iterable[Claim] = CLAIMS, level: float = LEVEL
+) -> tuple[Entry, ...]:
     """
     Return all claims, judged on the results of the nine arms.
 
@@ -149,11 +152,13 @@ def ledger(results: Results, *, level: float = LEVEL) -> tuple[Entry, ...]:
     results : Results
         From :func:`~abstransfer.experiments.run.run_experiment` with ARMS, or with
         the same arms and other tau.
+    claims : iterable of Claim
+        By default all.
     level : float
         Of each interval; nearer to 1 where there are many.
     """
     entries = []
-    for claim in CLAIMS:
+    for claim in claims:
         findings = tuple(finding.measured(results, level) for finding in claim.findings)
         entries.append(Entry(claim, findings, combine(findings)))
     return tuple(entries)

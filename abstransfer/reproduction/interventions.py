@@ -1,166 +1,67 @@
 """
-Which operations on notes page 10 compares, and the experiment that runs them.
+The experiment that runs the operations on notes, and stores it as any other.
 
-Every run: five robots are advised for tau steps, with the same luck.  Then one
-goes on alone for the rest of a run from each of the tables that the operations
-make of what they left, all with the same new luck.  What is counted is the goals
+Every run: robots are advised for tau steps, with the same luck.  Then one goes
+on alone for the rest of a run from each of the tables that the operations make
+of what they left, all with the same new luck.  What is counted is the goals
 after tau.
 """
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from dataclasses import replace
 from pathlib import Path
+from time import thread_time
 from typing import NamedTuple
 
 import numpy as np
 
-from ..driving import advised
-from ..experiments.arms import PAPER_STEPS, Arm
-from ..experiments.diagnosis import ready
+from ..driving import advised, executed_values
+from ..experiments.arms import SCALES, Arm, Scale
+from ..experiments.diagnosis import arrival, ready
 from ..experiments.plan import SEED
-from ..experiments.problem import Problem, target_tasks
-from ..experiments.results import Results, load_results, save_results
-from ..experiments.surgery import (
-    Left,
-    directions,
-    drawn,
-    erase,
-    go_on,
-    graft,
-    leave,
-    noted,
-    shuffle_actions,
-    shuffle_states,
-)
+from ..experiments.problem import Problem, digest, driving_tasks, target_tasks
+from ..experiments.results import Results
+from ..experiments.run import Work, carry_out
+from ..experiments.store import Store
+from ..experiments.surgery import go_on, leave, noted
+from ..experiments.workers import heed_stop
+from ..learning.settings import whole
 from .buildings import draw_building
-from .catalogue import HINT, TAU, make_guides
+from .guides import TAU, make_guides
+from .operations import OPERATIONS, ROBOTS
 
-#: What is asked of drawn buildings, where every run has its own.
-MAIN = (
-    "nd",
-    "prob",
-    "half",
-    "eager",
-    "wanderer",
-    "nd-erased",
-    "prob-grafted",
-)
-#: The robots that are advised, and the advice of each, by its name in the study.
-ROBOTS = {
-    "nd": "beta-0",
-    "prob": "beta-1",
-    "half": "nd-available-0.5",  # half ND, half eager
-    "eager": "available",
-    "wanderer": "all",
-}
 ADVISED, ALONE = 2, 3  # streams of seeds: none of those that report or tune
-
-
-def _only_nd(left: Left) -> np.ndarray:
-    """Return where ND has notes and Prob is blank, (S,)."""
-    return noted(left.notes["nd"]) & ~noted(left.notes["prob"])
-
-
-def _kept(notes: np.ndarray, where: np.ndarray) -> np.ndarray:
-    return erase(notes, ~where)
-
-
-def _thinned(left: Left, robot: str, like: str) -> np.ndarray:
-    """Return a robot's notes, kept in as many states as another has, by chance."""
-    notes = left.notes[robot]
-    n = min(noted(left.notes[like]).sum(), noted(notes).sum())
-    return _kept(notes, drawn(noted(notes), n, left.rng))
-
-
-def _nearest(left: Left, n: int) -> np.ndarray:
-    """Return ND's notes in the n of its states that lie nearest to the goal."""
-    notes = left.notes["nd"]
-    worth = np.where(noted(notes), left.best.max(axis=1), -1)
-    return _kept(notes, np.argsort(np.argsort(-worth, kind="stable")) < n)
-
-
-def _third(left: Left, third: int) -> np.ndarray:
-    """Return Prob's notes and a third of ND's others; 0 is nearest to the goal."""
-    states = np.flatnonzero(_only_nd(left))
-    far = states[np.argsort(-left.best.max(axis=1)[states], kind="stable")]
-    where = np.zeros(len(left.best), dtype=bool)
-    where[np.array_split(far, 3)[third]] = True
-    return graft(left.notes["prob"], left.notes["nd"], where)
-
-
-def _level(notes: np.ndarray) -> np.ndarray:
-    """Return notes that are all as large as the largest of their state."""
-    return np.where(notes > 0, notes.max(axis=1, keepdims=True), notes)
-
-
-def _blank(left: Left) -> np.ndarray:
-    return erase(left.best, np.ones(len(left.best), dtype=bool))
-
-
-def _perfect_where(left: Left, robot: str) -> np.ndarray:
-    return _kept(left.best, noted(left.notes[robot]))
-
-
-OPERATIONS: dict[str, Callable[[Left], np.ndarray]] = {
-    # Nothing is changed.
-    **{robot: lambda left, robot=robot: left.notes[robot] for robot in ROBOTS},
-    "blank": _blank,
-    "perfect": lambda left: left.best,
-    # Where there are notes.
-    "nd-erased": lambda left: erase(left.notes["nd"], _only_nd(left)),
-    "prob-grafted": lambda left: graft(
-        left.notes["prob"], left.notes["nd"], _only_nd(left)
-    ),
-    "nd-thinned": lambda left: _thinned(left, "nd", "prob"),
-    "nd-nearest": lambda left: _nearest(left, int(noted(left.notes["prob"]).sum())),
-    "half-thinned": lambda left: _thinned(left, "half", "nd"),
-    "half-on-nd": lambda left: _kept(left.notes["half"], noted(left.notes["nd"])),
-    "nd-large": lambda left: _kept(
-        left.notes["nd"], left.notes["nd"].max(axis=1) >= HINT.hint
-    ),
-    "prob-near": lambda left: _third(left, 0),
-    "prob-middle": lambda left: _third(left, 1),
-    "prob-far": lambda left: _third(left, 2),
-    # How good they are.
-    "perfect-on-prob": lambda left: _perfect_where(left, "prob"),
-    "perfect-on-nd": lambda left: _perfect_where(left, "nd"),
-    "nd-directions": lambda left: directions(left.notes["nd"]),
-    "nd-level": lambda left: _level(left.notes["nd"]),
-    "nd-thousandth": lambda left: left.notes["nd"] / 1000,
-    "nd-wrong-way": lambda left: shuffle_actions(
-        left.notes["nd"], left.available, left.rng
-    ),
-    "nd-elsewhere": lambda left: shuffle_states(left.notes["nd"], left.rng),
-    # The same experience, thought through.
-    **{
-        f"{robot}-digested": lambda left, robot=robot: left.digested[robot]
-        for robot in ROBOTS
-    },
-}
+DRIVERS = ("nd", "prob", "grad")  # robots that are judged as drivers, as in Table 1
 
 
 class Case(NamedTuple):
-    """One run of the experiment: all that a worker needs to know."""
+    """One run: all that a worker needs to know."""
 
     problem: Problem  #: what is learned
     guides: Mapping[str, np.ndarray]  #: advice (Z, A) of the robots
+    drivers: tuple[str, ...]  #: robots that are judged as drivers
     operations: tuple[str, ...]  #: what is done to the notes
     tau: int  #: steps of advice
-    n_steps: int  #: of a whole run
+    steps: int  #: that follow, alone
     seed: int  #: of all runs
     run: int  #: which run
 
 
-def operate(case: Case) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """
-    Return goals after tau and share of states noted at tau, by operation.
+class Outcome(NamedTuple):
+    """What came of a run."""
 
-    And how ready the notes of the robots are that were not operated on.
-    """
+    goals: tuple[int, ...]  #: after tau, by operation
+    measures: tuple[dict, ...]  #: by operation, by name
+    seconds: float  #: of one core
+
+
+def operate(case: Case) -> Outcome:
+    """Return what comes of one run, by operation."""
+    heed_stop()
+    began = thread_time()
     tasks, problem = target_tasks(case.problem), case.problem
     advised_by, alone = (
         np.random.SeedSequence(case.seed, spawn_key=(stream, case.run))
@@ -181,6 +82,7 @@ def operate(case: Case) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         max_episode=problem.max_episode,
         think=think,
     )
+    heed_stop()
     tables = [
         # Luck by name: no operation depends on which others there are.
         OPERATIONS[name](
@@ -193,49 +95,81 @@ def operate(case: Case) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     goals = go_on(
         tasks.mdp,
         tables,
-        case.n_steps - case.tau,
+        case.steps,
         seed=alone,
         alpha=problem.alpha,
         epsilon=problem.epsilon,
         gamma=problem.gamma,
         max_episode=problem.max_episode,
+        on_progress=heed_stop,
     )
-    way = ~tasks.mdp.terminal
-    share = [noted(notes)[way].mean() for notes in tables]
-    able = [
-        ready(tasks.mdp, notes, epsilon=problem.epsilon)
+    measures = tuple(
+        _measures(case, tasks.mdp, name, notes)
         for name, notes in zip(case.operations, tables, strict=True)
-        if name in ROBOTS
-    ]
-    return np.array(goals), np.array(share), np.array(able)
+    )
+    return Outcome(tuple(goals), measures, thread_time() - began)
+
+
+def _measures(case: Case, mdp, name: str, notes: np.ndarray) -> dict:
+    """Return what is measured of an operation's notes, and of the robot it names."""
+    found = {"noted": round(float(noted(notes)[~mdp.terminal].mean()), 4)}
+    if name in ROBOTS:
+        found["ready"] = round(ready(mdp, notes, epsilon=case.problem.epsilon), 4)
+    if name in case.drivers:
+        found["letters"], found["value"] = _drives(case.problem, case.guides[name])
+    return found
+
+
+def _drives(problem: Problem, advice: np.ndarray) -> tuple[float, float]:
+    """Return letters in 500,000 steps and the value of Table 1, both exact."""
+    tasks = driving_tasks(problem)
+    found = arrival(tasks.mdp, advised(tasks, advice), problem.max_episode)
+    letters = 500_000 * found.goals_per_step(~tasks.mdp.terminal)
+    value = executed_values(tasks, {"": advice})[""]
+    return round(letters, 2), round(float(value), 4)
 
 
 def run_operations(
     problem: Problem | None = None,
     *,
     operations: Iterable[str] = tuple(OPERATIONS),
-    n_runs: int = 12,
+    n_runs: int = 6,
     drawn: bool = False,
-    tau: int = TAU["hard"],
-    n_steps: int = PAPER_STEPS,
+    scale: str | Scale = "paper",
     seed: int = SEED,
     executor: Executor | None = None,
     n_workers: int | None = None,
     out: str | Path | None = None,
-    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    on_progress: Callable[[int, int], None] | None = None,
 ) -> Results:
     """
     Return the goals after tau of every operation, (operations, N, 1).
 
-    With `drawn`, run i has a building of its own, that of seed i.  `out` is a
-    folder to store in; results that are there already are read.  The record holds,
-    by operation, what it was at tau in each run: ``noted``, the share of states
-    with a note, and ``ready``, for robots that were not operated on.
+    Parameters
+    ----------
+    problem : Problem, optional
+        By default the book's.
+    operations : iterable of names in OPERATIONS
+    n_runs : int, default 6
+    drawn : bool
+        Run i has a building of its own, that of seed i.
+    scale, seed, executor, n_workers, out, on_progress
+        As for :func:`~abstransfer.experiments.run.run_experiment`, to which a
+        folder and an interrupt are the same.
+
+    Returns
+    -------
+    Results
+        The record holds, by operation, what was measured in each run at tau:
+        ``noted``, the share of states with a note; ``ready``, of robots that were
+        not operated on; in drawn buildings also ``letters`` in 500,000 steps and
+        ``value`` at 0.99 of three robots as drivers.
 
     Raises
     ------
     ValueError
-        If an operation is unknown, or `out` holds another experiment.
+        If an operation is unknown, the problem has notes that say nothing, or
+        `out` holds another experiment.
     """
     problem, operations = problem or Problem(), tuple(operations)
     if problem.reward != "goal" or problem.q0:
@@ -245,61 +179,86 @@ def run_operations(
             raise ValueError(
                 f"operations must be among {tuple(OPERATIONS)}, got {name!r}"
             )
-    parameters = {
-        "reading": problem.record(),
-        "steps": n_steps - tau,
-        "window": n_steps - tau,
-        "arms": [Arm(name, None, "hard", tau).record() for name in operations],
-        "runs": n_runs,
-        "seed": seed,
-        "stream": "surgery",
-    }
-    if drawn:
-        parameters["reading"]["target"] = "drawn by the number of the run"
-    if out and (Path(out) / "experiment.json").is_file():
-        stored = load_results(out)
-        if stored.record["parameters"] != parameters:
-            raise ValueError(f"{out} holds another experiment, so nothing was run")
-        return stored
+    n_runs = whole("n_runs", n_runs, 1)
+    scale = SCALES[scale] if isinstance(scale, str) else scale
+    arms = tuple(Arm(name, None, "hard", TAU["hard"]) for name in operations)
+    tau = scale.tau(arms[0])
     advice = make_guides(ROBOTS.values(), problem)
-    guides = {robot: advice[name] for robot, name in ROBOTS.items()}
-    cases = [
-        Case(
-            replace(problem, target=draw_building(run)) if drawn else problem,
-            guides,
-            operations,
-            tau,
-            n_steps,
-            seed,
-            run,
-        )
-        for run in range(n_runs)
-    ]
-    found = []
-    on_progress(0, n_runs)
-    own = executor is None
-    pool = executor or ProcessPoolExecutor(
-        n_workers, multiprocessing.get_context("spawn")
+    case = Case(
+        problem,
+        {robot: advice[name] for robot, name in ROBOTS.items()},
+        DRIVERS if drawn else (),
+        operations,
+        tau,
+        scale.steps - tau,
+        seed,
+        0,
     )
-    try:
-        for result in pool.map(operate, cases):
-            found.append(result)
-            on_progress(len(found), n_runs)
-    finally:
-        if own:
-            pool.shutdown(cancel_futures=True)
-    goals, share, able = (np.stack(x, axis=1) for x in zip(*found, strict=True))
-    robots = [name for name in operations if name in ROBOTS]
-    record = {
-        "parameters": parameters,
-        "noted": dict(zip(operations, share.round(4).tolist(), strict=True)),
-        "ready": dict(zip(robots, able.round(4).tolist(), strict=True)),
+    problems = [problem] * n_runs
+    if drawn:
+        problems = [replace(problem, target=draw_building(i)) for i in range(n_runs)]
+
+    def jobs(done):
+        for run in range(n_runs):
+            missing = tuple(np.flatnonzero(~done[:, run]).tolist())
+            if missing:
+                names = tuple(operations[i] for i in missing)
+                of_run = {"problem": problems[run], "operations": names, "run": run}
+                yield (missing, run), case._replace(**of_run)
+
+    return carry_out(
+        Work(
+            arms,
+            (len(arms), n_runs, 1),
+            case.steps,
+            _parameters(case, arms, problems, drawn),
+            operate,
+            jobs,
+            _keep,
+            lambda store: _measured(store, operations),
+        ),
+        executor=executor,
+        n_workers=n_workers,
+        out=out,
+        on_progress=on_progress,
+    )
+
+
+def _parameters(case: Case, arms, problems, drawn: bool) -> dict:
+    """Return all that the goals depend on, for JSON."""
+    reading = case.problem.record()
+    if drawn:
+        maps = "\n".join(str(problem.target) for problem in problems)
+        reading["target"] = {"name": "drawn", "sha256": digest(maps.encode())}
+    return {
+        "reading": reading,
+        "steps": case.steps,
+        "window": case.steps,
+        "arms": [arm.record() | {"tau_steps": case.tau} for arm in arms],
+        "runs": len(problems),
+        "seed": case.seed,
+        "stream": "operations",
+        "guides": {
+            robot: digest(np.round(advice + 0.0, 6).tobytes())
+            for robot, advice in case.guides.items()
+        },
     }
-    results = Results(
-        tuple(Arm(name, None, "hard", tau) for name in operations),
-        goals[:, :, None],
-        record,
-    )
-    if out:
-        save_results(out, results)
-    return results
+
+
+def _keep(store: Store, key, outcome: Outcome) -> None:
+    """Keep what came of a run: each operation by itself, so that each is resumed."""
+    missing, run = key
+    for arm, goals, found in zip(missing, *outcome[:2], strict=True):
+        store.save(
+            arm, run, np.array([[goals]]), outcome.seconds / len(missing), **found
+        )
+
+
+def _measured(store: Store, operations) -> dict:
+    """Return what was measured, by measure and operation, a list of runs each."""
+    found = {}
+    for (arm, _), measures in sorted(store.measures.items()):
+        for name, value in measures.items():
+            by_operation = found.setdefault(name, {})
+            by_operation.setdefault(operations[arm], []).append(value)
+    return found

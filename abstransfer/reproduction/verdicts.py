@@ -181,5 +181,4 @@ KINDS = {
     ),
     "end": Kind("{a} over the abstract arm that ends best", "ratio", _end),
     "delay": Kind("critical point of {a} after {b}", "steps", _delay),
-    "contrast": Kind("{a} {b}", "goals", None),  # of several arms: see `hypotheses`
 }

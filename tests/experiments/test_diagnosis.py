@@ -7,7 +7,7 @@ from abstransfer import MDP, navigation_tasks, read_map
 from abstransfer.experiments.diagnosis import arrival, can_arrive, notes_after
 from abstransfer.experiments.problem import Problem, target_tasks
 from abstransfer.learning import q_learning_runs
-from abstransfer.reproduction.catalogue import make_guides
+from abstransfer.reproduction.guides import make_guides
 
 
 @pytest.fixture(scope="module")

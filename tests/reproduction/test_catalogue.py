@@ -13,14 +13,12 @@ from abstransfer.experiments.problem import Problem, build_guides, target_tasks
 from abstransfer.experiments.results import read_results, stored_results
 from abstransfer.learning import q_learning
 from abstransfer.reproduction.catalogue import (
-    ADVICE,
     EXPERIMENTS,
-    TAU,
-    Experiment,
-    make_guides,
     reproduce,
 )
 from abstransfer.reproduction.figures import make_figures
+from abstransfer.reproduction.folders import Experiment
+from abstransfer.reproduction.guides import ADVICE, TAU, make_guides
 
 SMALL = Scale(30_000, 10_000)
 

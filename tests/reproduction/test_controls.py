@@ -13,9 +13,9 @@ from abstransfer.reproduction.catalogue import (
     EXPERIMENTS,
     FINE,
     PLANNED,
-    make_guides,
     reproduce,
 )
+from abstransfer.reproduction.guides import make_guides
 from abstransfer.reproduction.traps import trap_views
 
 SMALL = Scale(30_000, 10_000)

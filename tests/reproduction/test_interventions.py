@@ -1,17 +1,25 @@
 """The operations of page 10 do to notes what their names say."""
 
+import threading
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from support import NoExecutor
 
 from abstransfer import read_map
-from abstransfer.experiments.problem import Problem
-from abstransfer.experiments.results import load_results
+from abstransfer.driving import executed_values
+from abstransfer.experiments import workers
+from abstransfer.experiments.arms import ARMS, Scale
+from abstransfer.experiments.problem import Problem, build_guides, driving_tasks
+from abstransfer.experiments.results import UNFINISHED, load_results
 from abstransfer.experiments.surgery import Left, noted
-from abstransfer.reproduction.interventions import MAIN, OPERATIONS, run_operations
+from abstransfer.reproduction.buildings import draw_building
+from abstransfer.reproduction.interventions import run_operations
+from abstransfer.reproduction.operations import OPERATIONS
 
 PROBLEM = Problem(target=read_map("source"))
+SCALE, TINY = Scale(30_000, 30_000), Scale(6_000, 6_000)
 FEW = ("nd", "blank", "nd-erased", "wanderer-digested")
 
 
@@ -72,25 +80,80 @@ def test_levelled_notes_are_as_large_as_the_largest_of_their_state(left):
     assert (level[:, 2] == 0).all()
 
 
+class Until(ThreadPoolExecutor):
+    """A pool that is interrupted when it is to do its n-th job."""
+
+    def __init__(self, n):
+        super().__init__(1)
+        self.n = n
+
+    def submit(self, do, job):
+        self.n -= 1
+        return super().submit(do if self.n > 0 else self.stop, job)
+
+    def stop(self, job):
+        raise KeyboardInterrupt
+
+
 def test_operations_are_stored_and_read_again_and_do_not_depend_on_workers(tmp_path):
-    options = {"operations": FEW, "n_runs": 2, "tau": 4_000, "n_steps": 20_000}
+    options = {"operations": FEW, "n_runs": 2, "scale": SCALE}
     with ThreadPoolExecutor(2) as pool:
         first = run_operations(PROBLEM, executor=pool, out=tmp_path, **options)
     with ThreadPoolExecutor(1) as pool:
         again = run_operations(PROBLEM, executor=pool, **options)
+    options |= {"out": tmp_path, "executor": NoExecutor()}
 
     assert first.goals.any()
     np.testing.assert_array_equal(first.goals, again.goals)
     np.testing.assert_array_equal(load_results(tmp_path).goals, first.goals)
-    assert run_operations(PROBLEM, out=tmp_path, **options).record == first.record
+    assert run_operations(PROBLEM, **options).record == first.record
     assert first.record["noted"]["blank"] == [0, 0]
     assert list(first.record["ready"]) == ["nd"]
-    with pytest.raises(ValueError, match="holds another experiment"):
-        run_operations(PROBLEM, out=tmp_path, **options | {"tau": 5_000})
+    with pytest.raises(ValueError, match="seed is 2015 there and 3 here"):
+        run_operations(PROBLEM, **options | {"seed": 3})
+
+
+def test_interrupted_operations_go_on_with_what_remains(tmp_path):
+    """Also where the kill came between two operations of a run."""
+    options = {"operations": FEW, "n_runs": 2, "scale": SCALE}
+    with ThreadPoolExecutor(1) as pool:
+        whole = run_operations(PROBLEM, executor=pool, **options)
+    with Until(2) as pool, pytest.raises(KeyboardInterrupt):
+        run_operations(PROBLEM, executor=pool, out=tmp_path, **options)
+    path = tmp_path / UNFINISHED
+    lines = path.read_bytes().splitlines(keepends=True)
+    assert len(lines) == 1 + len(FEW), "run 0 is done"
+    path.write_bytes(b"".join(lines[:-1]))
+    seen = []
+    with ThreadPoolExecutor(1) as pool:
+        resumed = run_operations(
+            PROBLEM,
+            executor=pool,
+            out=tmp_path,
+            on_progress=lambda *steps: seen.append(steps),
+            **options,
+        )
+
+    np.testing.assert_array_equal(resumed.goals, whole.goals)
+    for measure in ("noted", "ready"):
+        assert resumed.record[measure] == whole.record[measure]
+    alone = SCALE.steps - SCALE.tau(ARMS[3])
+    assert seen == [(n * alone, 8 * alone) for n in (3, 4, 8)]
+
+
+def test_a_job_whose_parent_wants_no_more_stops(monkeypatch):
+    stop = threading.Event()
+    monkeypatch.setattr(workers, "STOP", stop)
+    stop.set()
+    with (
+        ThreadPoolExecutor(1) as pool,
+        pytest.raises(InterruptedError, match="was interrupted"),
+    ):
+        run_operations(PROBLEM, operations=FEW, n_runs=1, scale=SCALE, executor=pool)
 
 
 def test_an_operation_does_not_depend_on_which_others_there_are():
-    options = {"n_runs": 1, "tau": 4_000, "n_steps": 20_000}
+    options = {"n_runs": 1, "scale": SCALE}
     with ThreadPoolExecutor(1) as pool:
         alone, both = (
             run_operations(PROBLEM, operations=names, executor=pool, **options)
@@ -101,19 +164,23 @@ def test_an_operation_does_not_depend_on_which_others_there_are():
 
 
 def test_in_drawn_buildings_every_run_has_its_own(tmp_path):
+    """And what Grad, ND and Prob do there as drivers is measured, exactly."""
+    options = {
+        "operations": ("nd", "grad"),
+        "drawn": True,
+        "scale": Scale(6_000, 6_000),
+    }
     with ThreadPoolExecutor(1) as pool:
-        results = run_operations(
-            operations=MAIN[:2],
-            n_runs=2,
-            drawn=True,
-            tau=2_000,
-            n_steps=6_000,
-            executor=pool,
-            out=tmp_path,
-        )
+        results = run_operations(n_runs=2, executor=pool, out=tmp_path, **options)
 
     assert results.goals.shape == (2, 2, 1)
-    assert "drawn" in load_results(tmp_path).record["parameters"]["reading"]["target"]
+    record = load_results(tmp_path).record
+    assert record["parameters"]["reading"]["target"]["name"] == "drawn"
+    problem = Problem(target=draw_building(1))
+    advice = build_guides(problem, ["grad"])
+    value = executed_values(driving_tasks(problem), advice)["grad"]
+    assert record["value"]["grad"][1] == pytest.approx(value, abs=1e-4)
+    assert record["letters"]["nd"][0] != record["letters"]["nd"][1]
 
 
 def test_what_cannot_be_operated_on_is_refused():

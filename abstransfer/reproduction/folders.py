@@ -1,0 +1,96 @@
+"""
+One folder of results as data: what is run into it, and how.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
+
+from ..experiments.arms import ARMS, STRATEGIES, Arm, tau_cells
+from ..experiments.problem import GUIDES, Problem
+from ..experiments.results import load_results
+from ..experiments.run import run_experiment
+from ..experiments.tuning import tune, tuned_arms
+from ..maps import read_map
+from .guides import ADVICE, TAU, make_guides
+from .interventions import run_operations
+from .operations import MAIN, OPERATIONS
+from .traps import EXCHANGED
+
+
+class Experiment(NamedTuple):
+    """One folder of results."""
+
+    folder: str  #: its name below data/results
+    n_runs: int  #: runs of each arm
+    reward: str = "goal"  #: "goal" or "cost"
+    target: str = "target"  #: name of the map
+    problem: Mapping = {}  #: what else is not the problem of the book
+    grid: bool = False  #: every guided arm at every tau, with the tuning seeds
+    tuned_by: str | None = None  #: folder of the grid whose best tau to take
+    guides: tuple[str, ...] = ()  #: names in ADVICE, in place of the nine arms
+    strategies: tuple[str, ...] = STRATEGIES  #: under which they are given
+    taus: tuple[int, ...] = ()  #: for which they are given, in place of TAU
+    given: tuple[Arm, ...] = ()  #: arms in place of all these
+
+    def run(self, out: str | Path, problem: Problem | None = None, **options):
+        """Return the results, from its folder in `out`; see `reproduce`."""
+        changed = {"reward": self.reward, **self.problem}
+        problem = replace(problem or Problem(), target=read_map(self.target), **changed)
+        arms = self.arms(out)
+        made = {arm.guide for arm in arms} & {*ADVICE, *EXCHANGED} - set(GUIDES)
+        options = {"n_runs": self.n_runs} | options
+        return run_experiment(
+            arms,
+            problem,
+            stream="tune" if self.grid else "report",
+            guides=make_guides(made, problem) if made else None,
+            out=Path(out) / self.folder,
+            **options,
+        )
+
+    def arms(self, out: str | Path) -> tuple[Arm, ...]:
+        """
+        Return what is compared; a tuned experiment reads its grid in `out`.
+
+        >>> [arm.name for arm in Experiment("x", 1, guides=("grad",)).arms("")]
+        ['none', 'grad-hard', 'grad-soft']
+        """
+        if self.tuned_by:
+            grid = tune(load_results(Path(out) / self.tuned_by))
+            return tuned_arms(grid, self.given or ARMS)
+        if self.given:
+            return self.given
+        if not self.guides:
+            return tau_cells() if self.grid else ARMS
+        return ARMS[:1] + tuple(
+            Arm(f"{guide}-{strategy}", guide, strategy, tau)
+            for guide in self.guides
+            for strategy in self.strategies
+            for tau in self.taus or (TAU[strategy],)
+        )
+
+
+class Operated(NamedTuple):
+    """One folder of results of operations on notes."""
+
+    folder: str  #: its name below data/results
+    n_runs: int  #: runs of each operation
+    target: str | None  #: name of the map; None for a drawn one each run
+
+    def run(self, out: str | Path, problem: Problem | None = None, **options):
+        """Return the results, from its folder in `out`; see `reproduce`."""
+        problem = problem or Problem()
+        if self.target:
+            problem = replace(problem, target=read_map(self.target))
+        options = {"n_runs": self.n_runs} | options
+        return run_operations(
+            problem,
+            operations=OPERATIONS if self.target else MAIN,
+            drawn=not self.target,
+            out=Path(out) / self.folder,
+            **options,
+        )
