@@ -12,11 +12,6 @@ from sphinx.util import logging
 
 from abstransfer.scenes import KINDS, files
 
-# The theme's scroll spy would read all links of a page, and fail at a link to a moment
-# of a scene: it shall read those of the page's contents, as it means to.
-SPY = """addEventListener("DOMContentLoaded", () => {
-  document.body.dataset.bsTarget = "#pst-page-toc-nav";
-});"""
 LIMIT = 80_000  # bytes of one script before compression
 FOUND = re.compile(r'class="abstransfer-scene" data-scene="(\w+)"')
 logger = logging.getLogger(__name__)
@@ -52,7 +47,6 @@ def load_files(app, pagename, templatename, context, doctree):
 
 
 def setup(app):
-    app.add_js_file(None, body=SPY)
     app.connect("html-page-context", load_files)
     app.connect("build-finished", write_files)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
