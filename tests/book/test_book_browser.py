@@ -1,5 +1,6 @@
 """The built book in a browser, opened from files, with the network cut."""
 
+import re
 from importlib.resources import files
 
 import pytest
@@ -140,3 +141,36 @@ def test_the_search_finds_a_page(visit):
     page.wait_for_selector("#search-results li:has-text('Notation')")
 
     assert tab.problems == []
+
+
+def test_a_dark_page_is_printed_light(visit):
+    page = drawn(visit(color_scheme="dark").open("07_driving_test"))
+    page.wait_for_function("document.documentElement.dataset.theme == 'dark'")
+    page.evaluate(
+        "addEventListener('beforeprint', () => "
+        "window.printed = getComputedStyle(document.body).backgroundColor)"
+    )
+    page.pdf(print_background=True)
+
+    assert page.evaluate("printed") == "rgb(255, 255, 255)"
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+@pytest.mark.parametrize("name", ["00_race", "01_building", "03_learning"])
+def test_a_word_that_was_searched_for_is_marked_to_the_end_of_a_page(visit, name):
+    tab = visit()
+    page = drawn(tab.open(name, query="?highlight=robot"))
+
+    assert tab.problems == []
+    assert page.locator("section#quiz .highlighted").count() > 0
+
+
+def test_no_page_waits_for_a_heavy_script(html):
+    blocking = re.compile(r'<script src="([^"?#]+)[^"]*"></script>')
+    for name in toc_pages():
+        head = (html / f"{name}.html").read_text(encoding="utf-8")
+        head = head.partition("</head>")[0]
+        sizes = {part: (html / part).stat().st_size for part in blocking.findall(head)}
+
+        assert sizes, "the theme has some"
+        assert sum(sizes.values()) < 100_000, sizes

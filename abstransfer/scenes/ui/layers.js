@@ -161,7 +161,7 @@ export function addLayers(view) {
           { class: "ab-robot", "data-arm": arm },
           drawn("circle", { r: 7 }),
           marker(arm, 0, 0, 4),
-          name && drawn("title", {}, name),
+          name && drawn("title", { class: "nohighlight" }, name), // the search marks none
         );
         if (nodes[i]) nodes[i].replaceWith(body);
         else view.actors.append(body);
