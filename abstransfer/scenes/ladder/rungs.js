@@ -1,7 +1,7 @@
 // Two ladders side by side: the higher a rung, the better its policy drives.  What is
 // here is filled, the paper's number a hollow mark beside it; rungs glide.
 
-import { armStyle, drawn, make, marker, number } from "../ui/dom.js";
+import { armStyle, drawn, marker, number, sheet } from "../ui/dom.js";
 import { spread } from "../ui/lines.js";
 
 const [TOP, BOTTOM, LEFT, RIGHT, LINE, SIZE] = [34, 12, 142, 130, 16, 6];
@@ -21,11 +21,9 @@ function asides(heights) {
 
 // `isCalm` says whether rungs jump.
 export function makeLadders({ label, isCalm, height = 400 }) {
-  const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
-  const node = make("div", { class: "ab-chartbox" }, svg);
+  const { svg, node, repaint, resize, describe } = sheet(label, paint);
   const places = {}; // of rungs: { from, to, began }
   let [columns, frame] = [[], null];
-  new ResizeObserver(() => paint()).observe(node);
 
   // Where a rung is on its way.
   function placeOf(place, now) {
@@ -48,12 +46,11 @@ export function makeLadders({ label, isCalm, height = 400 }) {
         }
       }
     }
-    paint();
+    repaint();
   }
-  function paint() {
+  function paint(width) {
     cancelAnimationFrame(frame);
-    const width = node.clientWidth;
-    if (!width || !svg.isConnected) return;
+    if (!svg.isConnected) return;
     const now = performance.now();
     const y = (value) => TOP - ((height - TOP - BOTTOM) * value) / 100;
     const thin = (arm) => `stroke:${armStyle(arm).color};stroke-width:1`;
@@ -110,12 +107,10 @@ export function makeLadders({ label, isCalm, height = 400 }) {
     const across = Object.entries(lines).filter(([, ends]) => ends.length === 2).map((
       [arm, ends],
     ) => drawn("path", { d: `M${ends.join("L")}`, class: "ab-line", style: thin(arm) }));
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.style.height = `${height}px`;
+    resize(width, height);
     svg.replaceChildren(...across, ...parts);
     const isMoving = Object.values(places).some(({ began }) => now - began < GLIDE);
-    if (isMoving) frame = requestAnimationFrame(paint);
+    if (isMoving) frame = requestAnimationFrame(repaint);
   }
-  const describe = (sentence) => svg.setAttribute("aria-label", sentence);
   return { node, set, describe };
 }

@@ -1,7 +1,7 @@
 // Rows over one axis: a name, a text, and below them a box of runs with the mean of
 // them, or the interval of an effect.
 
-import { armStyle, drawn, make, marker } from "../ui/dom.js";
+import { armStyle, drawn, marker, sheet } from "../ui/dom.js";
 import { ticks } from "../ui/lines.js";
 
 const [ink, ground] = ["var(--ab-ink)", "var(--ab-ground)"];
@@ -10,14 +10,11 @@ const [EDGE, HEIGHT, FOOT] = [10, 48, 34]; // margins, of a row
 // set({ items, from, to, axis, format, zero }); an item is { arm, name, text, runs,
 // box: [min, quartile, median, quartile, max], interval: [mid, low, high], lit }.
 export function runRows(label) {
-  const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
-  const node = make("div", { class: "ab-chartbox" }, svg);
+  const { svg, node, repaint, resize, describe } = sheet(label, paint);
   let data = null;
-  new ResizeObserver(() => paint()).observe(node);
 
-  function paint() {
-    const width = node.clientWidth;
-    if (!width || !data) return;
+  function paint(width) {
+    if (!data) return;
     const { items, from, to, axis, format, zero } = data;
     const bottom = HEIGHT * items.length + 4;
     const px = (v) => (EDGE + ((v - from) / (to - from)) * (width - 2 * EDGE)).toFixed(1);
@@ -75,16 +72,15 @@ export function runRows(label) {
         );
       }
     });
-    svg.setAttribute("viewBox", `0 0 ${width} ${bottom + FOOT}`);
-    svg.style.height = `${bottom + FOOT}px`;
+    resize(width, bottom + FOOT);
     svg.replaceChildren(...parts);
   }
   return {
     node,
     set(next) {
       data = next;
-      paint();
+      repaint();
     },
-    describe: (sentence) => svg.setAttribute("aria-label", sentence),
+    describe,
   };
 }

@@ -33,6 +33,28 @@ export const make = (tag, attributes, ...children) =>
 export const drawn = (tag, attributes, ...children) =>
   filled(document.createElementNS(SVG, tag), attributes, children);
 
+/**
+ * An SVG picture that is painted anew when its width changes: { svg, node, box }.
+ *
+ * @param {string} label
+ * @param {(width: number) => void} paint
+ */
+export function sheet(label, paint) {
+  const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
+  const node = make("div", { class: "ab-chartbox" }, svg);
+  // In the next picture: to paint changes the height, which is observed as well.
+  new ResizeObserver(() => requestAnimationFrame(repaint)).observe(node);
+  function repaint() {
+    if (node.clientWidth) paint(node.clientWidth);
+  }
+  const resize = (width, height) => {
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.style.height = `${height}px`;
+  };
+  const describe = (sentence) => svg.setAttribute("aria-label", sentence);
+  return { svg, node, repaint, resize, describe };
+}
+
 // Counted for the whole page: each scene brings these lines anew.
 const LAST_ID = Symbol.for("abstransfer: the last id");
 export const newId = () => `ab-${(globalThis[LAST_ID] = (globalThis[LAST_ID] ?? 0) + 1)}`;

@@ -1,7 +1,7 @@
 // A line chart that may grow while a worker runs: curves with the colour, mark and
 // dash of their arm, named at their end; vertical marks; a cursor.
 
-import { armStyle, count, drawn, make, marker } from "./dom.js";
+import { armStyle, count, drawn, make, marker, sheet } from "./dom.js";
 
 /** @import { Axis, Curve } from "../types.d.ts" */
 
@@ -75,15 +75,12 @@ function replaceWhatDiffers(parent, children) {
 
 /** @param {{ label: string, x?: Axis, y?: Axis, height?: number }} options */
 export function lineChart({ label, x = {}, y = {}, height = 260 }) {
-  const svg = drawn("svg", { class: "ab-chart", role: "img", "aria-label": label });
-  const node = make("div", { class: "ab-chartbox" }, svg);
+  const { svg, node, repaint, resize, describe } = sheet(label, paint);
   /** @type {{ curves: Curve[], marks?: { x: number, label: string }[], cursor?: number }} */
   let data = { curves: [], marks: [] };
-  new ResizeObserver(() => paint()).observe(node);
 
-  function paint() {
-    const width = node.clientWidth;
-    if (!width) return;
+  /** @param {number} width */
+  function paint(width) {
     const { curves, marks = [], cursor } = data;
     const right = curves.some(({ name }) => name) ? RIGHT : 14;
     const points = curves.flatMap((curve) => curve.points);
@@ -160,8 +157,7 @@ export function lineChart({ label, x = {}, y = {}, height = 260 }) {
         drawn("path", { d: `M${px(cursor)} ${TOP}V${height - BOTTOM}`, class: "ab-cursor" }),
       );
     }
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.style.height = `${height}px`;
+    resize(width, height);
     replaceWhatDiffers(svg, parts);
   }
   const title = make("p", { class: "ab-ylabel" }, y.label);
@@ -169,8 +165,8 @@ export function lineChart({ label, x = {}, y = {}, height = 260 }) {
     node: make("div", { class: "ab-figure" }, title, node),
     set: (next) => {
       data = { marks: [], ...next };
-      paint();
+      repaint();
     },
-    describe: (sentence) => svg.setAttribute("aria-label", sentence),
+    describe,
   };
 }
