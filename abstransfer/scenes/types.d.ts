@@ -187,6 +187,7 @@ export interface Scene {
   bet: (name: string, options: { question: string; options: Record<string, any> }) => HTMLElement;
   betResult: (name: string, truth: string) => string;
   bets: Record<string, Record<string, string>>;
+  open: () => void;
   say: (sentence: string) => void;
   warn: (problems: Record<string, string>, sorry: string) => void;
   close: (sentence: string | false) => void;

@@ -63,9 +63,8 @@ export function makeTools(scene, me, buildings = {}) {
     isBack = false;
   }
   function show() {
-    const isAble = ({ node }, list) => list.length > 0 || node === document.activeElement;
-    undo.enable(isAble(undo, past));
-    redo.enable(isAble(redo, future));
+    undo.enable(past.length > 0);
+    redo.enable(future.length > 0);
   }
 
   // ---- the drawing
@@ -148,6 +147,8 @@ export function makeTools(scene, me, buildings = {}) {
   const area = make("textarea", {
     rows: 12,
     spellcheck: "false",
+    autocapitalize: "off",
+    autocorrect: "off",
     "aria-label": "The building as text",
     oninput: () => scene.set({ text: area.value }),
   });

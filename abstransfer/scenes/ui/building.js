@@ -21,6 +21,7 @@ import { CELL, edges, middle, star } from "./plan.js";
  */
 
 const NEAR = 0.25; // of a cell's side: the pointer means the wall
+const REST = 400; // milliseconds
 const ARROWS = { ArrowUp: 0, ArrowRight: 1, ArrowDown: 2, ArrowLeft: 3 };
 const KEYS = [
   ["arrow keys", "go from cell to cell"],
@@ -49,6 +50,7 @@ export function building(options) {
   const node = make("div", { class: "ab-view" }, frame, hint, help);
   const view = { node, svg, cell: 0, cells: [], plan: null, show, select, focus, rename };
   view.map = show;
+  let naming = null;
 
   // Draw a map.  { goals }: the cells to mark, all goals of the map by default;
   // { aim }: the one that counts, the others are hollow.
@@ -66,6 +68,7 @@ export function building(options) {
     view.cell = Math.min(view.cell, map.nCells - 1);
     if (isNew) {
       view.cells = Array.from({ length: map.nCells }, (_, cell) => tile(map, cell));
+      view.names = [];
       const rows = Array.from(
         { length: map.height },
         (_, row) =>
@@ -97,6 +100,7 @@ export function building(options) {
       ...[...goals].map((cell) => star(map, cell, aim === null || cell === aim)),
     );
     select(view.cell);
+    rename();
     showRing();
     if (hadFocus) view.cells[view.cell].focus();
   }
@@ -122,11 +126,27 @@ export function building(options) {
     view.cells[view.cell]?.removeAttribute("tabindex");
     view.cell = cell;
     view.cells[cell].setAttribute("tabindex", 0);
-    rename();
+    tell(cell);
   }
-  // Say anew what is in the selected cell (after the state changed).
+  // Say anew what is in the cells, after the state changed: in the selected one at once,
+  // in all others, for who explores by touch, when nothing moves any more.
   function rename() {
-    if (canWalk) view.cells[view.cell].setAttribute("aria-label", nameOf(view.cell));
+    if (!canWalk) return;
+    tell(view.cell);
+    clearTimeout(naming);
+    naming = setTimeout(nameRow, REST, 0);
+  }
+  function nameRow(row) {
+    const { width, height } = view.plan;
+    if (!svg.isConnected) return;
+    for (let cell = row * width; cell < (row + 1) * width; cell++) tell(cell);
+    if (row + 1 < height) naming = setTimeout(nameRow, 0, row + 1);
+  }
+  function tell(cell) {
+    const name = nameOf(cell);
+    if (view.names[cell] === name) return;
+    view.names[cell] = name;
+    view.cells[cell].setAttribute("aria-label", name);
   }
   function focus(cell) {
     select(cell);

@@ -7,29 +7,59 @@ import { timeline } from "./timeline.js";
 
 /** @import { ButtonOptions, Scene } from "../types.d.ts" */
 
+const MEANT = 8; // pixels that a finger moves along a slider that it means to move
+
 /** @param {{ label: string, min?: number, max?: number, step?: number, format?: (x: number) => string, onInput: (x: number) => void }} options */
 export function slider({ label, min = 0, max = 1, step = 1, format = String, onInput }) {
   const id = newId();
-  const output = make("output", { for: id });
+  // Silent: the slider says its value, and the scene what comes of it.
+  const output = make("output", { for: id, "aria-live": "off" });
+  let finger = null; // where a touch began, and the value then, until it means the slider
   const input = make("input", {
     id,
     type: "range",
     min,
     max,
     step,
-    oninput: () => {
-      tell();
-      onInput(input.valueAsNumber);
+    oninput: () => finger ? tell() : take(),
+    onchange: () => finger || take(),
+    onpointerdown: ({ pointerType, clientX }) => {
+      if (pointerType === "touch") finger = { clientX, value: input.value };
+    },
+    onpointermove: ({ clientX }) => {
+      if (!finger || Math.abs(clientX - finger.clientX) < MEANT) return;
+      finger = null;
+      take();
+    },
+    onpointerup: () => {
+      finger = null;
+      take();
+    },
+    // The finger scrolls the page: it meant the page.
+    onpointercancel: () => {
+      if (!finger) return;
+      const { value } = finger;
+      setTimeout(() => (finger = null, input.value = value, tell())); // it changes once more
     },
   });
+  let taken = null;
+  function take() {
+    tell();
+    if (input.value === taken) return;
+    taken = input.value;
+    onInput(input.valueAsNumber);
+  }
   function tell() {
     const text = format(input.valueAsNumber);
+    if (output.textContent === text) return;
     output.textContent = text;
     input.setAttribute("aria-valuetext", text);
   }
   function set(value, bounds) {
     if (bounds) [input.min, input.max] = bounds;
+    if (finger) return; // it has the last word
     input.value = value;
+    taken = input.value;
     tell();
   }
   const title = make("label", { for: id }, label);
@@ -80,13 +110,14 @@ export function button(text, act, { primary = false, label, title } = {}) {
     class: primary ? "ab-button ab-primary" : "ab-button",
     "aria-label": label,
     title: title ?? label,
-    onclick: act,
+    onclick: () => node.getAttribute("aria-disabled") === "true" || act(),
   }, text);
   return {
     node,
     set: (next) => (node.textContent = next),
     rename: (name) => node.setAttribute("aria-label", node.title = name),
-    enable: (can) => node.toggleAttribute("disabled", !can),
+    // Not by `disabled`: a button that has the focus would lose it.
+    enable: (can) => node.setAttribute("aria-disabled", `${!can}`),
   };
 }
 

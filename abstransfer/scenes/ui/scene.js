@@ -44,6 +44,16 @@ function withState(own) {
   };
 }
 
+// A control that hides itself hands the focus to the next one: the keyboard keeps its
+// place.
+const isSeen = (element) => element.getClientRects().length > 0;
+function nextTo(element, shell) {
+  const stops = [...shell.querySelectorAll('button, input, select, summary, [tabindex="0"]')];
+  const isAfter = (stop) =>
+    element.compareDocumentPosition(stop) & Node.DOCUMENT_POSITION_FOLLOWING;
+  return stops.find((stop) => isAfter(stop) && isSeen(stop));
+}
+
 /** @type {(selector: string) => NodeListOf<HTMLElement>} */
 const htmlOf = (selector) => document.querySelectorAll(selector);
 
@@ -123,9 +133,11 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     frame = cancelAnimationFrame(frame) ?? null;
     const names = new Set(changed);
     changed.clear();
+    const focused = shell.contains(document.activeElement) ? document.activeElement : null;
     paint(store.values, names);
     me.warn(store.problems, sorry);
     for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
+    if (focused && !isSeen(focused)) nextTo(focused, shell)?.focus();
   }
   function stop() {
     job?.stop();
@@ -215,6 +227,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     linked = sorry ? null : fromUrl();
     element.append(shell);
     drawNow();
+    me.open();
   } catch (error) {
     leave();
     throw error;

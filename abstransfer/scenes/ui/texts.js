@@ -43,7 +43,11 @@ export function shell(scene, body, reset) {
     next = null;
   }
   // One sentence a second at most; the last one wins.
+  // What is there as the page opens is read in its place.
+  let isOpen = false;
+  scene.open = () => (isOpen = true);
   scene.say = (sentence) => {
+    if (!isOpen) return;
     next = sentence;
     timer ??= setTimeout(speak, 50);
   };
@@ -96,7 +100,7 @@ export function shell(scene, body, reset) {
   const foot = make("div", { class: "ab-row ab-foot" }, button("Reset", reset).node);
   return make(
     "div",
-    { class: "ab-scene", role: "group", "aria-label": `Scene: ${scene.spec.title}` },
+    { class: "ab-scene", role: "region", "aria-label": `Scene: ${scene.spec.title}` },
     warning,
     body,
     closing,

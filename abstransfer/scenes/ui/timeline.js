@@ -76,8 +76,7 @@ export function timeline(scene, name, options = {}) {
   const end = iconButton("end", "To the end", () => jump(bounds()[1]));
   const next = moments && button(moments.label, () => {
     const t = moments.find(now());
-    if (t === null) scene.say("There is no later one.");
-    else jump(t);
+    if (t !== null) jump(t);
   });
   const speed = make(
     "select",
@@ -100,10 +99,9 @@ export function timeline(scene, name, options = {}) {
   }
   scene.control(name, (t, [low, high]) => {
     scrub.set(t, [low, high]);
-    // A button that has the focus stays enabled, or the keyboard would lose its place.
-    const mark = (each, can) => each.node.setAttribute("aria-disabled", String(!can));
-    for (const each of [start, back]) mark(each, t > low);
-    for (const each of [step, end]) mark(each, t < high);
+    for (const each of [start, back]) each.enable(t > low);
+    for (const each of [step, end]) each.enable(t < high);
+    next?.enable(moments.find(t) !== null);
   });
   scene.onLeave(pause);
   showPlay();

@@ -1,0 +1,164 @@
+"""What holds in all scenes for any reader: by ear, finger, keyboard, in contrast."""
+
+import pytest
+from scene_tab import bare
+
+from abstransfer.scenes import KINDS
+
+PLAYS = ["race", "ripple", "microscope", "hill"]
+# Waits of a scene go on only when the test says so: `pass()`.
+WAITING = """
+const real = window.setTimeout;
+const waiting = [];
+window.setTimeout = (act, wait = 0, ...rest) =>
+    wait < 50 ? real(act, wait, ...rest) : 1e6 + waiting.push(() => act(...rest));
+window.pass = () => waiting.splice(0).forEach((act) => act());
+"""
+# How often what is live by itself is written in a number of steps, and after them.
+HEARD = """async (n) => {
+    let written = 0;
+    const all = { childList: true, characterData: true, subtree: true };
+    const observer = new MutationObserver(() => written++);
+    const live = '[aria-live]:not([aria-live="off"]), [role="status"], ' +
+        'output:not([aria-live="off"])';
+    for (const each of document.querySelectorAll(live)) observer.observe(each, all);
+    const slider = document.querySelector('.ab-timeline [type="range"]');
+    slider.value = slider.min;
+    while (n--) {
+        slider.stepUp();
+        slider.dispatchEvent(new Event("input"));
+        await new Promise(requestAnimationFrame);
+    }
+    const before = written;
+    pass();
+    await new Promise(requestAnimationFrame);
+    observer.disconnect();
+    return [before, written];
+}"""
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_only_one_thing_speaks_in_a_scene(open_scene, name):
+    tab = open_scene(bare(KINDS[name]))
+    live = tab.root.locator(
+        '[aria-live]:not([aria-live="off"]), [role="status"],'
+        ' output:not([aria-live="off"])'
+    )
+
+    assert live.count() == 1
+
+
+@pytest.mark.parametrize("name", PLAYS)
+def test_many_steps_are_one_sentence(open_scene, name):
+    tab = open_scene(bare(KINDS[name], bet="skip"), first=WAITING)
+    tab.page.evaluate("pass()")
+
+    assert tab.page.evaluate(HEARD, 20) == [0, 1]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_scene_says_nothing_before_the_reader_does_something(open_scene, name):
+    tab = open_scene(bare(KINDS[name]))
+    tab.page.wait_for_timeout(100)
+
+    assert tab.root.locator("[role=status]").inner_text() == ""
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_scene_is_a_landmark_with_its_title(open_scene, name):
+    tab = open_scene(bare(KINDS[name]))
+
+    assert tab.root.get_by_role("region", name="Scene: ").count() == 1
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_all_cells_of_a_grid_have_a_name(open_scene, name):
+    tab = open_scene(bare(KINDS[name]))
+    nameless = "[role=gridcell]:not([aria-label])"
+    tab.page.wait_for_function(f"!document.querySelector('{nameless}')")
+
+    assert tab.problems == []
+
+
+def touch(tab, slider, path):
+    """Put a finger on the middle of a slider, take it along, lift it."""
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+    session = tab.page.context.new_cdp_session(tab.page)
+    point = [{"x": x, "y": y}]
+    session.send(
+        "Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": point}
+    )
+    for dx, dy in path:
+        point = [{"x": x + dx, "y": y + dy}]
+        session.send(
+            "Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": point}
+        )
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    tab.settle().settle()
+
+
+def test_a_finger_that_scrolls_over_a_slider_leaves_it_as_it_was(open_scene):
+    tab = open_scene(bare(KINDS["hill"]), width=400, has_touch=True)
+    slider = tab.root.get_by_role("slider", name="q (up")
+    before = slider.input_value()
+    touch(tab, slider, [(0, -10 * i) for i in range(1, 15)])
+
+    assert slider.input_value() == before == "0.3"
+    assert tab.page.evaluate("scrollY") > 0, "the page was meant"
+    assert "hill.q" not in tab.page.url
+
+
+def test_a_finger_moves_a_slider_and_a_tap_too(open_scene):
+    tab = open_scene(bare(KINDS["hill"]), width=400, has_touch=True)
+    slider = tab.root.get_by_role("slider", name="q (up")
+    touch(tab, slider, [])
+    tapped = float(slider.input_value())
+    touch(tab, slider, [(5 * i, 0) for i in range(1, 15)])
+    moved = float(slider.input_value())
+
+    assert 0.4 < tapped < 0.6 < moved
+    assert f"hill.q={moved:g}" in tab.url_with(f"hill.q={moved:g}")
+
+
+def large():
+    """A building of one room, 40 x 40 cells: solving it waits to be asked for."""
+    rows = ["|" + " " * 79 + "|"] * 79
+    rows[38] = "|" + "*".center(79) + "|"
+    wall = "+" + "-" * 79 + "+"
+    return "\n".join([wall, *rows, wall])
+
+
+# Buttons that hide themselves.
+HIDING = {
+    "hill": ("Forget the earlier climbs", {"earlier": [[0.9, 0.9]]}),
+    "studio": ("Large building: solve it", {"text": large()}),
+    "ladder": ("Large building: solve it", {"text": large()}),
+}
+
+
+@pytest.mark.parametrize("name", HIDING)
+def test_a_button_that_hides_itself_hands_the_focus_on(open_scene, name):
+    text, state = HIDING[name]
+    tab = open_scene(bare(KINDS[name], **state))
+    button = tab.root.get_by_role("button", name=text)
+    button.focus()
+    tab.press("Enter")
+
+    assert not button.is_visible()
+    assert tab.page.evaluate("document.activeElement.closest('.ab-scene') !== null")
+    assert tab.problems == []
+
+
+@pytest.mark.parametrize("name", ["studio", "ballot", "paint"])
+def test_bars_are_seen_in_high_contrast(open_scene, name):
+    tab = open_scene(bare(KINDS[name], bet="skip"), forced_colors="active")
+    if name == "paint":
+        tab.pick("And of all", "I do not bet: show me")
+        tab.root.locator(".ab-bars li").first.wait_for()
+    bar = tab.root.locator(".ab-bar").first
+    bar.wait_for(state="attached")
+    ground = tab.root.evaluate("e => getComputedStyle(e).backgroundColor")
+
+    assert bar.evaluate("e => getComputedStyle(e).backgroundColor") != ground
