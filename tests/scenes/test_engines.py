@@ -1,0 +1,116 @@
+"""All scenes in three browser engines: they live, and say the same to the digit."""
+
+import pytest
+from engines import ENGINES
+from scene_tab import PAGE, bare, scripts
+from support import PATIENCE
+
+from abstransfer.scenes import KINDS
+from abstransfer.scenes import files as front
+
+SHORT = {"steps": 600_000, "bet": "skip"}
+# In which each scene has something to close with, soon.
+STATES = {
+    "ballot": {"bet": "skip", "bet_more": "skip"},
+    "dial": SHORT,
+    "filling": {"bet": "skip", "signed": 10},
+    "hill": {"bet": "skip", "t": 300, "earlier": [[0.9, 0.9]]},
+    "ladder": {"order": "skip", "gap": "skip"},
+    "microscope": {"bet": "skip", "t": 300},
+    "paint": {"bet": "skip", "bet_new": "skip"},
+    "project": {"bet": "skip", "lives": 1},
+    "race": {**SHORT, "full": True, "t": 1000},
+    "ripple": {"bet": "skip", "ties": "skip", "arrows": True},
+    "studio": {"bet": "skip", "show": "grad"},
+    "tau": {**SHORT, "all": True},
+}
+# What starts something: a button of the scene, by the begin of its name.
+PRESSED = {"dial": "Let β = 1", "project": "Race", "ripple": "To the end"}
+# Press, wait until all have closed, and return all that is said: by scene.
+READ = """async ([pressed]) => {
+    const scenes = [...document.querySelectorAll(".abstransfer-scene")];
+    const wait = (time) => new Promise((f) => setTimeout(f, time));
+    const nameOf = (button) => button.getAttribute("aria-label") ?? button.textContent;
+    const press = (scene, name) => {
+        const of = (each) => nameOf(each).startsWith(name);
+        const button = [...scene.querySelectorAll("button")].find(of);
+        if (button?.getAttribute("aria-disabled") === "true") return false;
+        button?.click();
+        return Boolean(button);
+    };
+    const isBusy = (scene) =>
+        scene.querySelector(".ab-closing")?.hidden ?? true;
+    const waiting = { ...pressed };
+    const end = Date.now() + 90_000;
+    const left = () => scenes.filter((scene) => isBusy(scene) || /…|Stop \\(/.test(
+        scene.querySelector(".ab-body").textContent));
+    while ((left().length || Object.keys(waiting).length) && Date.now() < end) {
+        for (const [name, button] of Object.entries(waiting)) {
+            const scene = document.querySelector(`[data-scene="${name}"]`);
+            if (press(scene, button)) delete waiting[name];
+        }
+        await wait(100);
+    }
+    for (const details of document.querySelectorAll(".ab-twin")) details.open = true;
+    await wait(500);
+    const said = scenes.map((scene) => {
+        const body = scene.querySelector(".ab-body").cloneNode(true);
+        body.querySelectorAll("svg, option").forEach((each) => each.remove());
+        const rows = [...scene.querySelectorAll(".ab-twin tr")].map((row) =>
+            [...row.cells].map((cell) => cell.textContent).join(" | "));
+        const closing = scene.querySelector(".ab-closing").textContent;
+        const isLive = scene.matches(".ab-live");
+        return [scene.dataset.scene, [isLive, body.textContent, closing, ...rows]];
+    });
+    const busy = left().map((scene) => scene.dataset.scene);
+    return { busy, ...Object.fromEntries(said) };
+}"""
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    """A page with all scenes."""
+    body = "".join(bare(KINDS[name], **state) for name, state in STATES.items())
+    page = tmp_path_factory.mktemp("engines") / "all scenes, ünï #1 100%.html"
+    page.write_text(
+        PAGE.format(style=front.style(), scripts=scripts(body), scene=body),
+        encoding="utf-8",
+    )
+    return page.as_uri()
+
+
+@pytest.fixture(scope="module")
+def in_chromium(address, chromium):
+    page = chromium.new_page()
+    page.set_default_timeout(1000 * PATIENCE)
+    page.goto(address)
+    found = page.evaluate(READ, [PRESSED])
+    page.close()
+    return found
+
+
+def test_states_are_of_all_scenes_and_each_comes_to_its_end(in_chromium):
+    assert sorted(STATES) == sorted(KINDS)
+    assert in_chromium["busy"] == []
+    for name in KINDS:
+        is_live, body, closing, *rows = in_chromium[name]
+        assert is_live
+        assert closing
+        assert len(rows) > 3
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_an_engine_says_the_same(address, in_chromium, tmp_path, name):
+    engine = ENGINES[name]
+    if engine.missing():
+        pytest.skip(f"{name} is not installed; CONTRIBUTING.md says how")
+    browser = engine(tmp_path)
+    try:
+        browser.open(address)
+        found = browser.ask(READ, [PRESSED])
+    finally:
+        browser.close()
+
+    assert found["busy"] == []
+    for scene in KINDS:
+        assert found[scene] == in_chromium[scene], scene
