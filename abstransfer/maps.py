@@ -23,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import foreign
 from ._paths import DATA
 
 CORRIDOR, ROOM, GOAL = ".", " ", "*"
@@ -30,6 +31,12 @@ WALLS = ("-", "|")
 DOOR, OPEN = "d", " "
 STEP = np.array([[-1, 0], [0, 1], [1, 0], [0, -1]])  # (4, 2): row, column
 DIRECTIONS = ("N", "E", "S", "W")
+# What may stand in the text, by row % 2 and column % 2, and what an error says of it.
+KNOWN = (("+-| ", "-d "), ("|d ", ". *"))
+CORNER = "a corner: '+', '-', '|' or ' '"
+CELL = "a cell: '.' of a corridor, ' ' of a room, '*' a goal"
+EDGE = "an edge: {!r} for a wall, 'd' for a door, ' ' for neither"
+SAID = ((CORNER, EDGE.format("-")), (EDGE.format("|"), CELL))
 
 
 @dataclass(frozen=True)
@@ -155,8 +162,8 @@ def parse_map(text: str) -> Map:
     """
     Return the map that a text draws; the inverse of ``str``.
 
-    Corners carry no information and are redrawn.  Empty lines before and
-    after the picture are ignored.
+    Corners carry no information and are redrawn.  Module ``foreign`` says which
+    differences are forgiven, and which drawings with larger cells are read.
 
     Raises
     ------
@@ -175,14 +182,12 @@ def parse_map(text: str) -> Map:
     """
     if not isinstance(text, str):
         raise ValueError(f"text of a map must be a str, got {type(text).__name__}")
-    lines = text.splitlines()
-    while lines and not lines[-1].strip():
-        lines.pop()
-    n_blank = next((i for i, line in enumerate(lines) if line.strip()), 0)
-    chars = _rectangle(lines[n_blank:], n_blank)
-    _check_characters(chars, n_blank)
-    map_ = Map(_to_text(chars))
-    _check_building(map_, n_blank)
+    try:
+        picture = foreign.find_picture(text, KNOWN)
+        map_ = Map(_to_text(_characters(picture)))
+        _check_building(map_, picture)
+    except ValueError as error:
+        raise ValueError(foreign.named(text) or str(error)) from None
     return map_
 
 
@@ -204,9 +209,10 @@ def read_map(source: str | Path) -> Map:
             + ", ".join(shipped)
         )
     try:
-        return parse_map(path.read_text(encoding="utf-8-sig"))
+        return parse_map(foreign.decoded(path.read_bytes()))
     except UnicodeDecodeError as error:
-        raise ValueError(f"{path}: not a text file (byte {error.start})") from None
+        problem = f"no text in UTF-8 or UTF-16 (byte {error.start})"
+        raise ValueError(f"{path}: {problem}") from None
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
 
@@ -241,55 +247,41 @@ def _to_text(chars: np.ndarray) -> str:
     return "\n".join("".join(line) for line in chars)
 
 
-def _refuse(row: int, column: int, problem: str, remedy: str):
-    raise ValueError(f"row {row + 1}, column {column + 1}: {problem}; {remedy}")
-
-
-def _rectangle(lines: list[str], n_blank: int) -> np.ndarray:
-    """Return the characters of lines of one length, or _refuse the first other."""
+def _characters(picture: foreign.Picture) -> np.ndarray:
+    """Return the characters of a picture, or refuse one that draws no cells."""
+    lines = picture.lines
     if not lines:
         raise ValueError("the map is empty; draw at least two cells, one a goal")
-    for i, line in enumerate(lines):
-        if len(line) != len(lines[0]):
-            problem = f"this line has {len(line)} characters, the first {len(lines[0])}"
-            place = min(len(line), len(lines[0]))
-            _refuse(n_blank + i, place, problem, "make all lines equally long")
     rows, columns = len(lines), len(lines[0])
+    for row, line in enumerate(lines):
+        if len(line) != columns:
+            problem = f"this line has {len(line)} characters, the first {columns}"
+            place = min(len(line), columns)
+            picture.refuse(row, place, problem, "make all lines equally long")
     even = rows % 2 == 0 or columns % 2 == 0
     if even or min(rows, columns) < 3 or rows * columns < 15:
         raise ValueError(
             "H x W cells take 2H+1 rows and 2W+1 columns of text, two cells or "
             f"more; got {rows} rows and {columns} columns"
         )
-    return np.array([list(line) for line in lines])
-
-
-def _check_characters(chars: np.ndarray, n_blank: int) -> None:
-    """Refuse the first character that cannot stand where it does."""
-    kinds = (
-        (slice(0, None, 2), slice(0, None, 2), "corner", "+-| "),
-        (slice(1, None, 2), slice(1, None, 2), "cell", CORRIDOR + ROOM + GOAL),
-        (slice(0, None, 2), slice(1, None, 2), "edge", WALLS[0] + DOOR + OPEN),
-        (slice(1, None, 2), slice(0, None, 2), "edge", WALLS[1] + DOOR + OPEN),
-    )
-    for rows, columns, kind, known in kinds:
-        unknown = np.argwhere(~np.isin(chars[rows, columns], list(known)))
-        if len(unknown):
-            row, column = unknown[0] * 2 + [rows.start, columns.start]
-            char = str(chars[row, column]) or "\0"  # NumPy drops a trailing NUL
-            problem = f"unknown character {char!r}"
-            remedy = f"the {kind} here must be one of {', '.join(map(repr, known))}"
-            _refuse(n_blank + row, column, problem, remedy)
+    for i, j in ((0, 0), (1, 1), (0, 1), (1, 0)):
+        for row, line in enumerate(lines[i::2]):
+            for column, char in enumerate(line[j::2]):
+                if char not in KNOWN[i][j]:
+                    place = 2 * row + i, 2 * column + j
+                    problem = f"unknown character {char!r}"
+                    picture.refuse(*place, problem, f"here stands {SAID[i][j]}")
+    chars = np.array([list(line) for line in lines])
     border = np.ones(chars.shape, bool)
     border[1:-1, 1:-1] = False
     border[::2, ::2] = False  # corners carry no information
     holes = np.argwhere(border & np.isin(chars, (OPEN, DOOR)))
     if len(holes):
-        row, column = holes[0]
-        _refuse(n_blank + row, column, "the border has a hole", "put a wall there")
+        picture.refuse(*holes[0], "the border has a hole", "put a wall there")
+    return chars
 
 
-def _check_building(map_, n_blank: int) -> None:
+def _check_building(map_, picture: foreign.Picture) -> None:
     """Refuse a drawing that is no building a robot can learn in."""
     cells, regions = map_.cells, map_.regions
     neighbors, doors = map_.neighbors, map_.doors
@@ -299,9 +291,9 @@ def _check_building(map_, n_blank: int) -> None:
         places = np.argwhere(bad)
         if len(places):
             cell, *direction = places[0]
-            row, column = np.array(divmod(cell, map_.shape[1])) * 2 + 1
-            d_row, d_column = STEP[direction[0]] if direction else (0, 0)
-            _refuse(n_blank + row + d_row, column + d_column, problem, remedy)
+            place = np.array(divmod(cell, map_.shape[1])) * 2 + 1
+            place += STEP[direction[0]] if direction else 0
+            picture.refuse(*place, problem, remedy)
 
     is_corridor = cells == CORRIDOR
     other = np.where(neighbors >= 0, neighbors, 0)  # behind a wall: any cell will do

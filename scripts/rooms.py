@@ -28,8 +28,10 @@ CORE = (
     "driving.py",
     "learning/",
 )
-# What makes learning fast, and what needs the core, each only those before it.
+# What the core uses and nobody need read: text that others made, speed; and what needs
+# the core, each only those before it.
 ABOVE = (
+    "foreign.py",
     "learning/_*.py",
     "experiments/",
     "plotting/",

@@ -12,9 +12,10 @@ import abstransfer
 PACKAGE = Path(abstransfer.__file__).parent
 # A module imports from its own room and from rooms before it.  Pictures come before the
 # reproduction, because that draws figures.
-ORDER = ["_paths", "maps", "mdp", "abstraction", "navigation", "solvers", "policies"]
-ORDER += ["builders", "driving", "learning", "experiments", "plotting", "reproduction"]
-ORDER += ["project", "scenes", "exercises", "cli", "__main__", "__init__"]
+ORDER = ["_paths", "foreign", "maps", "mdp", "abstraction", "navigation", "solvers"]
+ORDER += ["policies", "builders", "driving", "learning", "experiments", "plotting"]
+ORDER += ["reproduction", "project", "scenes", "exercises", "cli"]
+ORDER += ["__main__", "__init__"]
 
 
 def name_of(path):

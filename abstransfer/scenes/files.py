@@ -11,10 +11,11 @@ import json
 import re
 from functools import cache
 
+from .. import foreign
 from ..driving import PAPER, ROWS
 from ..experiments.arms import ARMS, PAPER_STEPS, TAUS
 from ..experiments.plan import SEED
-from ..maps import Map, read_map
+from ..maps import KNOWN, SAID, Map, read_map
 from ..plotting.style import PALETTE
 from .bundle import BUNDLES, COMMAND, FOLDER, BundleError, build, digest, is_fresh
 
@@ -102,7 +103,14 @@ def said(**more) -> str:
     """Return what Python says to a script, as JSON."""
     maps = {name: str(read_map(name)) for name in ("source", "target")}
     said = {"palette": _small_palette(), "mapTexts": maps, "paper": _paper()}
+    said["drawing"] = _drawing()
     return json.dumps({**said, "workerSource": bundled("worker"), **more})
+
+
+def _drawing() -> dict:
+    """Return how a map is drawn, and what else is read or called by its name."""
+    tables = {"same": foreign.SAME, "formats": foreign.FORMATS, "posts": foreign.POSTS}
+    return {"known": KNOWN, "said": SAID, "tabSizes": foreign.TAB_SIZES, **tables}
 
 
 def _paper() -> dict:

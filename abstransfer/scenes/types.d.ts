@@ -17,6 +17,13 @@ export interface Building {
   readonly nDoors: number;
 }
 
+/** The picture in a text: characters, and where in the text they stand. */
+export interface Picture {
+  readonly lines: string[][];
+  readonly rows: number[]; // line of the text of each line of the picture
+  readonly columns: number[]; // column of the text of each of its columns
+}
+
 /** What of a building elimination needs. */
 export type Plan = Pick<Building, "neighbors">;
 
@@ -234,6 +241,14 @@ export interface Said {
     strategies: Record<string, { dash: number[]; filled: boolean }>;
   };
   mapTexts: { source: string; target: string };
+  drawing: { // see the Python modules `maps` and `foreign`
+    known: string[][]; // characters that may stand, by row % 2 and column % 2
+    said: string[][]; // what an error says of them
+    same: Record<string, string>; // what stands for a character
+    formats: [name: string, lacks: string, pattern: string][];
+    posts: string; // a pattern
+    tabSizes: number[];
+  };
   workerSource: string;
   paper: {
     arms: { name: string; guide: string | null; strategy: string; tau: number }[];

@@ -181,7 +181,7 @@ REFUSED = {
         "make all lines equally long",
     ),
     "line too long": (
-        BUILDING.replace("|. . .|", "|. . .| "),
+        BUILDING.replace("|. . .|", "|. . .|x"),
         "row 6, column 8: this line has 8 characters, the first 7; "
         "make all lines equally long",
     ),
@@ -193,32 +193,32 @@ REFUSED = {
     "unknown cell": (
         edited(2, 2, "x"),
         "row 2, column 2: unknown character 'x'; "
-        "the cell here must be one of '.', ' ', '*'",
+        "here stands a cell: '.' of a corridor, ' ' of a room, '*' a goal",
     ),
     "unknown corner": (
         edited(3, 3, "d"),
         "row 3, column 3: unknown character 'd'; "
-        "the corner here must be one of '+', '-', '|', ' '",
+        "here stands a corner: '+', '-', '|' or ' '",
     ),
     "wall the wrong way": (
         edited(2, 3, "-"),
         "row 2, column 3: unknown character '-'; "
-        "the edge here must be one of '|', 'd', ' '",
+        "here stands an edge: '|' for a wall, 'd' for a door, ' ' for neither",
     ),
     "other wall the wrong way": (
         edited(3, 2, "|"),
         "row 3, column 2: unknown character '|'; "
-        "the edge here must be one of '-', 'd', ' '",
+        "here stands an edge: '-' for a wall, 'd' for a door, ' ' for neither",
     ),
     "character nul": (
         edited(2, 2, "\0"),
         "row 2, column 2: unknown character '\\x00'; "
-        "the cell here must be one of '.', ' ', '*'",
+        "here stands a cell: '.' of a corridor, ' ' of a room, '*' a goal",
     ),
     "not ascii": (
         edited(6, 4, "é"),
         "row 6, column 4: unknown character 'é'; "
-        "the cell here must be one of '.', ' ', '*'",
+        "here stands a cell: '.' of a corridor, ' ' of a room, '*' a goal",
     ),
     "hole above": (
         edited(1, 4, " "),
@@ -328,11 +328,11 @@ def test_a_folder_is_no_map(tmp_path):
     ("content", "said"),
     [
         (b"", "the map is empty; draw at least two cells, one a goal"),
-        (bytes(range(256)), "not a text file (byte 128)"),
-        (SMALLEST.encode("utf-16"), "not a text file (byte 0)"),
+        (bytes(range(1, 256)), "no text in UTF-8 or UTF-16 (byte 127)"),
+        (SMALLEST.encode("utf-16-le")[:-1], "no text in UTF-8 or UTF-16 (byte 32)"),
         (edited(2, 2, "x").encode(), REFUSED["unknown cell"][1]),
     ],
-    ids=["empty", "binary", "utf-16", "bad map"],
+    ids=["empty", "binary", "cut utf-16", "bad map"],
 )
 def test_a_bad_file_is_refused_by_its_name(tmp_path, content, said):
     path = tmp_path / "bad.txt"

@@ -3,7 +3,7 @@ Write the golden files: what the Python package finds, for JavaScript to equal.
 
 Run it after a change that means to change results::
 
-    python tests/golden/write_golden.py
+    cd tests; python -m golden.write_golden
 
 ``tests/scenes/test_engine.py`` checks that the files are what the code finds today,
 and ``tests/scenes/js`` that the browser's engine finds the same.  Whole numbers and
@@ -21,6 +21,8 @@ from abstransfer.builders import abstract_policies
 from abstransfer.driving import PAPER
 from abstransfer.experiments.arms import ARMS
 from abstransfer.learning import q_learning
+
+from .foreign_texts import TEXTS
 
 HERE = Path(__file__).parent
 SHIPPED = ("source", "target", "target_b", "target_c", "target_d")
@@ -151,7 +153,7 @@ def map_facts(map_: at.Map) -> dict:
 
 def maps_golden() -> dict:
     """Return maps, and drawings that are refused."""
-    texts = dict.fromkeys((*DRAWN, *NOT_DRAWN, *random_texts()))
+    texts = dict.fromkeys((*DRAWN, *NOT_DRAWN, *TEXTS, *random_texts()))
     return {
         "shipped": {name: map_facts(at.read_map(name)) for name in SHIPPED},
         "small": [map_facts(map_) for map_ in small_maps()],

@@ -39,7 +39,7 @@ def test_a_golden_file_holds_what_the_code_finds_today(name):
 
     assert not found, (
         "\n".join(found[:5])
-        + "\nIf the change is meant: python tests/golden/write_golden.py"
+        + "\nIf the change is meant: cd tests; python -m golden.write_golden"
     )
 
 

@@ -4,26 +4,16 @@
 // describes the format.  A map is a frozen record of arrays over its C cells,
 // numbered row by row; entry 4 * cell + direction belongs to an edge.
 
-/** @import { Building } from "../types.d.ts" */
+import { drawing } from "../python.js";
+import { findPicture, named, refuse } from "./foreign.js";
+
+/** @import { Building, Picture } from "../types.d.ts" */
 
 export const [CORRIDOR, ROOM, GOAL, DOOR, OPEN] = [".", " ", "*", "d", " "];
 const WALLS = "-|";
+const { known: KNOWN, said: SAID } = drawing; // by row % 2 and column % 2
 export const DIRECTIONS = ["N", "E", "S", "W"];
 export const STEP = [[-1, 0], [0, 1], [1, 0], [0, -1]]; // row, column
-
-// ---- errors: as Python words them, with the place for the page to mark
-
-/**
- * @param {number} row
- * @param {number} column
- * @param {string} problem
- * @param {string} remedy
- * @returns {never}
- */
-function refuse(row, column, problem, remedy) {
-  const text = `row ${row + 1}, column ${column + 1}: ${problem}; ${remedy}`;
-  throw Object.assign(new Error(text), { row, column });
-}
 
 /**
  * A character as Python's repr writes it.
@@ -41,36 +31,19 @@ function quoted(char) {
 
 // ---- from text to characters and back
 
-/**
- * Lines end, and are blank, where Python's `splitlines` and `strip` say so.
- *
- * @param {string} text
- */
-function toLines(text) {
-  // deno-lint-ignore no-control-regex
-  const lines = text.split(/\r\n|[\n\r\v\f\x1c-\x1e\x85\u2028\u2029]/);
-  // deno-lint-ignore no-control-regex
-  const isBlank = (line) => /^(?:[^\S\uFEFF]|\x1f)*$/.test(line);
-  while (lines.length && isBlank(lines.at(-1))) lines.pop();
-  const nBlank = Math.max(0, lines.findIndex((line) => !isBlank(line)));
-  return { lines: lines.slice(nBlank).map((line) => [...line]), nBlank };
-}
-
-/**
- * @param {string[][]} lines
- * @param {number} nBlank
- */
-function checkRectangle(lines, nBlank) {
+/** @param {Picture} picture */
+function checkRectangle(picture) {
+  const { lines } = picture;
   if (!lines.length) {
     throw new Error("the map is empty; draw at least two cells, one a goal");
   }
   const rows = lines.length;
   const columns = lines[0].length;
-  lines.forEach((line, i) => {
+  lines.forEach((line, row) => {
     if (line.length === columns) return;
     const problem = `this line has ${line.length} characters, the first ${columns}`;
     const place = Math.min(line.length, columns);
-    refuse(nBlank + i, place, problem, "make all lines equally long");
+    refuse(picture, row, place, problem, "make all lines equally long");
   });
   const isEven = rows % 2 === 0 || columns % 2 === 0;
   if (isEven || Math.min(rows, columns) < 3 || rows * columns < 15) {
@@ -81,37 +54,26 @@ function checkRectangle(lines, nBlank) {
   }
 }
 
-/**
- * @param {string[][]} chars
- * @param {number} nBlank
- */
-function checkCharacters(chars, nBlank) {
-  /** @type {[number, number, string, string][]} */
-  const kinds = [
-    [0, 0, "corner", "+-| "],
-    [1, 1, "cell", CORRIDOR + ROOM + GOAL],
-    [0, 1, "edge", WALLS[0] + DOOR + OPEN],
-    [1, 0, "edge", WALLS[1] + DOOR + OPEN],
-  ];
-  for (const [top, left, kind, known] of kinds) {
-    for (let row = top; row < chars.length; row += 2) {
-      for (let column = left; column < chars[0].length; column += 2) {
-        const char = chars[row][column];
-        if (known.includes(char)) continue;
+/** @param {Picture} picture */
+function checkCharacters(picture) {
+  const { lines } = picture;
+  for (const [top, left] of [[0, 0], [1, 1], [0, 1], [1, 0]]) {
+    for (let row = top; row < lines.length; row += 2) {
+      for (let column = left; column < lines[0].length; column += 2) {
+        const char = lines[row][column];
+        if (KNOWN[top][left].includes(char)) continue;
         const problem = `unknown character ${quoted(char)}`;
-        const list = [...known].map(quoted).join(", ");
-        const remedy = `the ${kind} here must be one of ${list}`;
-        refuse(nBlank + row, column, problem, remedy);
+        refuse(picture, row, column, problem, `here stands ${SAID[top][left]}`);
       }
     }
   }
-  chars.forEach((line, row) => {
-    const isEnd = row === 0 || row === chars.length - 1;
+  lines.forEach((line, row) => {
+    const isEnd = row === 0 || row === lines.length - 1;
     line.forEach((char, column) => {
       const isBorder = isEnd || column === 0 || column === line.length - 1;
       const isCorner = row % 2 === 0 && column % 2 === 0; // carries no information
       if (isBorder && !isCorner && (char === OPEN || char === DOOR)) {
-        refuse(nBlank + row, column, "the border has a hole", "put a wall there");
+        refuse(picture, row, column, "the border has a hole", "put a wall there");
       }
     });
   });
@@ -215,13 +177,14 @@ function describeMap(text) {
  * Refuse a drawing that is no building a robot can learn in.
  *
  * @param {Building} map
- * @param {number} nBlank
+ * @param {Picture} picture
  */
-function checkBuilding(map, nBlank) {
+function checkBuilding(map, picture) {
   const { width, nCells, cells, inRoom, goals, neighbors, doors, regions } = map;
   const refuseCell = (cell, dr, dc, problem, remedy) =>
     refuse(
-      nBlank + 2 * Math.floor(cell / width) + 1 + dr,
+      picture,
+      2 * Math.floor(cell / width) + 1 + dr,
       2 * (cell % width) + 1 + dc,
       problem,
       remedy,
@@ -272,26 +235,42 @@ function checkBuilding(map, nBlank) {
  * What a text draws, though it be no legal building (yet): a page can show it.
  *
  * @param {string} text
- * @returns {{ map: Building, nBlank: number }}
+ * @returns {Building}
  */
 export function drawMap(text) {
-  const { lines, nBlank } = toLines(text);
-  checkRectangle(lines, nBlank);
-  checkCharacters(lines, nBlank);
-  return { map: describeMap(toText(lines)), nBlank };
+  return explained(text, ({ lines }) => describeMap(toText(lines)));
 }
 
 /**
- * Return the map that a text draws.  An error names row, column and remedy, and
- * has `row` and `column`, counted from 0, where there is one place to mark.
+ * Return the map that a text draws.  An error names row, column and remedy; where there
+ * is one place to mark it has `row` and `column` of the text, counted from 0, and
+ * `inside`, the same in the picture that was found there.
  *
  * @param {string} text
  * @returns {Building}
  */
 export function parseMap(text) {
-  const { map, nBlank } = drawMap(text);
-  checkBuilding(map, nBlank);
-  return map;
+  return explained(text, (picture) => {
+    const map = describeMap(toText(picture.lines));
+    checkBuilding(map, picture);
+    return map;
+  });
+}
+
+/**
+ * @param {string} text
+ * @param {(picture: Picture) => Building} build
+ */
+function explained(text, build) {
+  try {
+    const picture = findPicture(text);
+    checkRectangle(picture);
+    checkCharacters(picture);
+    return build(picture);
+  } catch (error) {
+    const name = named(text);
+    throw name ? new Error(name) : error;
+  }
 }
 
 /**

@@ -70,10 +70,11 @@ export function makeEditor(scene, options = {}) {
     me.text = text;
     [me.problem, me.bad] = ["", []];
     try {
-      me.map = drawMap(text).map;
-      parseMap(me.map.text);
+      me.map = drawMap(text);
+      parseMap(text);
     } catch (error) {
-      const { message, row, column } = /** @type {any} */ (error);
+      const { message, inside } = /** @type {any} */ (error);
+      const [row, column] = inside ?? [];
       me.problem = message;
       me.bad = [row - 1, row, row + 1].flatMap((r) =>
         [column - 1, column, column + 1].map((c) => [r, c])

@@ -14,7 +14,7 @@ import {
 import { follow, outcomes, solving } from "../../../abstransfer/scenes/studio/walk.js";
 
 const source = readMap("source");
-const draw = (text) => at.drawMap(text).map;
+const draw = at.drawMap;
 const refusal = (text) => {
   try {
     at.parseMap(text);
