@@ -175,6 +175,7 @@ export interface Scene {
   el: HTMLElement;
   state: State;
   limits: Record<string, any>;
+  parts: Record<string, HTMLElement[]>; // what steers a value, by its name
   readonly calm: boolean;
   readonly isLearning: boolean;
   set: (changes: State) => void;

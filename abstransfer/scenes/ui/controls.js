@@ -126,8 +126,10 @@ export function bind(scene) {
   const tied = (make_) => (name, options) => {
     const part = make_({ ...options, onInput: (value) => scene.set({ [name]: value }) });
     scene.control(name, part.set);
-    return part.node;
+    return noted(name, part.node);
   };
+  // A node that steers a value: an address may hide it.
+  const noted = (name, node) => ((scene.parts[name] ??= []).push(node), node);
   scene.slider = (name, options) => {
     const [min, max] = scene.limits[name];
     return tied(slider)(name, { min, max, ...options });
@@ -135,6 +137,6 @@ export function bind(scene) {
   scene.choice = tied(choice);
   scene.toggle = tied(toggle);
   scene.button = (text, act, options) => button(text, act, options).node;
-  scene.timeline = (name, options) => timeline(scene, name, options);
+  scene.timeline = (name, options) => noted(name, timeline(scene, name, options));
   bindBets(scene);
 }

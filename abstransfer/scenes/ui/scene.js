@@ -2,8 +2,9 @@
 // The file of a scene ends in `defineScene(name, spec)`.
 
 import { learnAll } from "../engine/workers.js";
-import { bind } from "./controls.js";
+import { bind, button } from "./controls.js";
 import { make } from "./dom.js";
+import { lecture } from "./lecture.js";
 import * as address from "./state.js";
 import { dropBets, shell as makeShell } from "./texts.js";
 
@@ -110,6 +111,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
   const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
   const controls = []; // { name, show(value, bounds) }
   const leaving = [];
+  let odd = ""; // what the address asks for in vain
   const changed = new Set(Object.keys(spec.state));
   let [paint, frame, timer, job, isLeft] = [null, null, null, null, false];
 
@@ -135,7 +137,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     changed.clear();
     const focused = shell.contains(document.activeElement) ? document.activeElement : null;
     paint(store.values, names);
-    me.warn(store.problems, sorry);
+    me.warn(store.problems, `${sorry} ${odd}`.trim());
     for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
     if (focused && !isSeen(focused)) nextTo(focused, shell)?.focus();
   }
@@ -179,6 +181,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
       redraw();
     },
     limits: store.limits,
+    parts: {},
     add: (...nodes) => body.append(...nodes.flat()),
     row: (...nodes) => make("div", { class: "ab-row" }, ...nodes),
     onLeave: (f) => leaving.push(f),
@@ -197,6 +200,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     const found = url && address.fromUrl(id, spec);
     if (found || (url && !location.hash)) {
       sorry = "";
+      odd = forLecture.follow(found ?? {});
       note(store.set({ ...linkable(store.start), ...found }), true);
       redraw(); // there may be something to say of what was refused
     }
@@ -219,7 +223,8 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     delete element.dataset.abId;
   }
 
-  const shell = makeShell(me, body, reset);
+  const forLecture = lecture(me, element);
+  const shell = makeShell(me, body, [forLecture.node, button("Reset", reset).node]);
   let linked = null;
   try {
     bind(me);

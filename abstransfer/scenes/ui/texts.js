@@ -1,7 +1,7 @@
 // What a scene says: the frame around it, the live region, the closing sentence, the
 // table of its numbers, and bets.
 
-import { button } from "./controls.js";
+import { askedByPage } from "./asked.js";
 import { make } from "./dom.js";
 import { kept } from "./state.js";
 
@@ -14,9 +14,9 @@ const PAUSE = 1000; // milliseconds between two sentences
  *
  * @param {Scene} scene
  * @param {HTMLElement} body
- * @param {() => void} reset
+ * @param {HTMLElement[]} below buttons at its foot
  */
-export function shell(scene, body, reset) {
+export function shell(scene, body, below) {
   const live = make("p", { class: "ab-hidden", role: "status", "aria-live": "polite" });
   const closing = make("p", { class: "ab-closing", hidden: true });
   const table = make("div", {
@@ -97,7 +97,7 @@ export function shell(scene, body, reset) {
     fillTwin();
   };
 
-  const foot = make("div", { class: "ab-row ab-foot" }, button("Reset", reset).node);
+  const foot = make("div", { class: "ab-row ab-foot" }, below);
   return make(
     "div",
     { class: "ab-scene", role: "region", "aria-label": `Scene: ${scene.spec.title}` },
@@ -121,6 +121,11 @@ export function bindBets(scene) {
   scene.bet = (name, { question, options }) => {
     bets[name] = options;
     scene.limits[name] = ["", ...Object.keys(options), "skip"];
+    const asked = askedByPage(scene, name, { question, options });
+    if (asked) {
+      scene.control(name, asked.set);
+      return asked.node;
+    }
     const choice = scene.choice(name, { label: question, options: { ...options, skip: SKIP } });
     choice.classList.add("ab-bet");
     const before = kept(key(scene, name));
