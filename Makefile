@@ -63,7 +63,7 @@ test: .venv/.book system
 	$(BIN)/python abstransfer/scenes/bundle.py
 	$(DENO) fmt --check
 	$(DENO) lint
-	$(DENO) check abstransfer/scenes
+	$(DENO) check abstransfer/scenes book/_ext
 	$(MAKE) --no-print-directory book
 	$(PYTEST)
 

@@ -35,6 +35,11 @@ NOT_PROSE = [
         re.M | re.S,
     ),
     re.compile(r"^\$\$.*?^\$\$", re.M | re.S),
+    # What a reader should have seen: tests/book/seen.py computes these numbers.
+    re.compile(
+        r"^<details>\n<summary>What you should have seen.*?^</details>$", re.M | re.S
+    ),
+    re.compile(r"<a href=\"[^\"]*\">"),
     re.compile(r"^(?: {4}|:\w+:|%|\|?[-| :]+\|$).*$", re.M),
     re.compile(
         r"\{[\w:]+\}`[^`]*`|(`+)(?:(?!\1).)+\1|\]\([^)]*\)"
