@@ -33,7 +33,7 @@ EXERCISES = [
         hints=(
             "What partners share drops out of their difference. `np.roll` by 1 gives "
             "run i the partner i - 1; the first window is column 0 of the curves.",
-            "`at.experiments.stats.paired_difference` makes the interval. The variance "
+            "`at.experiments.stats.t_interval(x - y)` makes the interval. The variance "
             "of a difference is 2 (1 - r) times that of one run.",
             "Without pairs r is 0. Take the root of 1 - r: `np.sqrt(1 - 0.75)`.",
         ),
