@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..experiments.arms import ARMS
 from ..experiments.problem import GUIDES
 from ..experiments.results import RECORD, Results, load_results
 from ..experiments.stats import t_interval
@@ -23,6 +24,7 @@ from .tables import (
     is_grid,
     ledger_table,
     measures_table,
+    reading_name,
     tau_table,
     to_csv,
     to_markdown,
@@ -40,14 +42,15 @@ def make_figures(
     Make all figures and tables from the results in a folder, or in its folders.
 
     An experiment in folder ``x`` becomes figure3-x, figure4-x and measures-x, a
-    grid of tau tau-x; ledger and tau collect all of them.
+    grid of tau tau-x; tau collects all grids, and a ledger for each reading of the
+    learner all others.  Controls beside the nine arms are left out.
 
     Returns the files written.  Raises FileNotFoundError where no experiment
     has finished.
     """
     experiments, out = finished_experiments(results), Path(out)
     out.mkdir(parents=True, exist_ok=True)
-    written, entries, taus = [], {}, []
+    written, ledgers, taus = [], {}, []
 
     def write(name: str, content) -> None:
         path = out / name
@@ -60,14 +63,17 @@ def make_figures(
             on_file(path)
 
     for name, found in experiments.items():
-        if any(arm.guide not in (None, *GUIDES) for arm in found.arms):
-            continue  # a study with guides of its own: page 10 draws it
         if is_grid(found):
+            if any(arm.guide not in GUIDES for arm in found.arms):
+                continue  # guides of its own: page 10 draws it
             tunings = tune(found)
             rows = tau_table(tunings)
             taus += [{"experiment": experiment_name(found)} | row for row in rows]
             picture = tau_figure(found)
             _write_picture(write, f"tau-{name}", picture)
+            continue
+        found = nine_arms(found)
+        if found is None:
             continue
         boxes, curves = figure3(found), figure4(found)
         _write_picture(write, f"figure3-{name}", boxes)
@@ -75,18 +81,20 @@ def make_figures(
         _write_picture(write, f"figure4-{name}", curves)
         write(f"figure4-{name}.csv", to_csv(curves_table(found)))
         write(f"measures-{name}.csv", to_csv(measures_table(found)))
-        entries[experiment_name(found)] = ledger(found)
+        of_reading = ledgers.setdefault(reading_name(found), {})
+        of_reading[experiment_name(found)] = ledger(found)
     if taus:
         write("tau.csv", to_csv(taus))
         write("tau.md", to_markdown(taus))
-    if entries:
+    for reading, entries in ledgers.items():
         rows = [
             {"experiment": name} | row
             for name, judged in entries.items()
             for row in ledger_table(judged)
         ]
-        write("ledger.csv", to_csv(rows))
-        write("ledger.md", ledger_text(entries))
+        of = reading and f"-{reading}"
+        write(f"ledger{of}.csv", to_csv(rows))
+        write(f"ledger{of}.md", ledger_text(entries))
     return written
 
 
@@ -107,6 +115,16 @@ def finished_experiments(folder: str | Path) -> dict[str, Results]:
             "abstransfer experiment --out DIR"
         )
     return dict(sorted(found.items(), key=lambda item: _place(item[1])))
+
+
+def nine_arms(results: Results) -> Results | None:
+    """Return the nine arms of Figures 3 and 4 alone; None where one is missing."""
+    names = [arm.name for arm in results.arms]
+    if not {arm.name for arm in ARMS} <= set(names):
+        return None
+    places = [names.index(arm.name) for arm in ARMS]
+    arms = tuple(results.arms[i] for i in places)
+    return results._replace(arms=arms, goals=results.goals[places])
 
 
 def _place(results: Results) -> tuple:

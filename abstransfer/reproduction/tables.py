@@ -36,12 +36,23 @@ MILLION = 1_000_000
 def experiment_name(results: Results) -> str:
     """Return reward and target of an experiment, as in "goal, target_b"."""
     problem = results.record["parameters"]["reading"]
-    name = f"{problem['reward']}, {problem['target']['name']}"
+    parts = [problem["reward"], problem["target"]["name"], reading_name(results)]
+    taus = {arm.name: arm.tau for arm in ARMS}
+    own = any(arm.tau != taus.get(arm.name, arm.tau) for arm in results.arms)
     if is_grid(results):
-        return name + ", grid"
-    paper = {arm.name: arm.tau for arm in ARMS}
-    tuned = any(arm.tau != paper.get(arm.name, arm.tau) for arm in results.arms)
-    return name + ", own tau" * tuned
+        of_paper = any(arm.tau == taus.get(arm.name) for arm in results.arms)
+        parts.append("grid" if of_paper else "finer grid")
+    elif own:
+        parts.append("own tau")
+    return ", ".join(filter(None, parts))
+
+
+def reading_name(results: Results) -> str:
+    """Return how the learner of an experiment is read: "" is as in the book."""
+    problem = results.record["parameters"]["reading"]
+    if problem.get("actions", "relational") != "relational":
+        return problem["actions"]
+    return "masked" if problem["unavailable"] == "masked" else ""
 
 
 def is_grid(results: Results) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from abstransfer.experiments import store
-from abstransfer.experiments.arms import ARMS, Scale, tau_cells
+from abstransfer.experiments.arms import ARMS, Arm, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
 from abstransfer.experiments.problem import Problem
 from abstransfer.experiments.results import (
@@ -138,6 +138,32 @@ def test_the_ledger_has_every_claim_under_every_convention(made):
     for claim in CLAIMS:
         assert f"> {claim.quote}" in text
     assert text.count("| goal, target | cost, target |") == 1 + len(CLAIMS)
+
+
+def test_each_reading_has_a_ledger_and_a_finer_grid_its_name(tmp_path):
+    """Controls beside the nine arms are left out; what holds fewer, too."""
+    goal, compass = Problem(), Problem(actions="compass")
+    hint = Arm("hint", None, "hard", 0, 1e-12)
+    made = {
+        "goal": made_up(ARMS, 5, goal),
+        "compass": made_up((*ARMS, hint), 5, compass),
+        "few": made_up((ARMS[0], hint), 5, Problem(unavailable="masked")),
+        "fine": made_up(tau_cells(ARMS[3:4], (3_000_000, 4_000_000)), 5, goal),
+    }
+    for name, each in made.items():
+        save_results(tmp_path / name, each)
+    written = {path.name for path in make_figures(tmp_path, tmp_path / "out")}
+
+    assert {name for name in written if name.startswith("ledger")} == {
+        *("ledger.csv", "ledger.md", "ledger-compass.csv", "ledger-compass.md")
+    }
+    rows = read(tmp_path / "out" / "figure3-compass.csv")
+    assert [row["arm"] for row in rows] == [arm.name for arm in ARMS]
+    assert not any("few" in name for name in written)
+    names = {row["experiment"] for row in read(tmp_path / "out" / "tau.csv")}
+    assert names == {"goal, target, finer grid"}
+    first = read(tmp_path / "out" / "ledger-compass.csv")[0]
+    assert first["experiment"] == "goal, target, compass"
 
 
 def test_verdicts_and_findings_stand_side_by_side(results):

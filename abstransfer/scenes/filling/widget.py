@@ -7,7 +7,8 @@ from functools import lru_cache
 import traitlets
 
 from ...experiments.arms import ARMS
-from ...experiments.results import read_results, stored_results
+from ...experiments.results import read_results
+from ...reproduction.catalogue import TARGETS
 from ...reproduction.claims import CLAIMS
 from ...reproduction.optional_stopping import (
     FIRST_LOOK,
@@ -24,9 +25,9 @@ from ..parts.student import STUDENT
 
 RUNS = 50
 NINE = tuple(
-    name
-    for name in stored_results()
-    if name.startswith(("goal-target", "cost-target")) and not name.endswith("-tau")
+    f"{reward}-{target}"
+    for reward in ("cost", "goal")
+    for target in ("target", "target-tuned", *TARGETS[1:])
 )
 
 
