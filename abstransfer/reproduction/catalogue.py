@@ -143,7 +143,15 @@ _SECOND_EDITION = (
     Operated("drawn", 20, None),
 )
 #: Of the second edition, those whose results are stored.
-_STORED = ("controls-target",)
+_STORED = (
+    "controls-target",
+    "compass-target-tau",
+    "compass-target",
+    "compass-target-tuned",
+    "compass-target_b",
+    "compass-target_c",
+    "compass-target_d",
+)
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
 )
