@@ -151,6 +151,9 @@ _STORED = (
     "compass-target_b",
     "compass-target_c",
     "compass-target_d",
+    "controls-target_b",
+    "controls-target_c",
+    "controls-target_d",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
