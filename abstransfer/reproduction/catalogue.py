@@ -154,6 +154,10 @@ _STORED = (
     "controls-target_b",
     "controls-target_c",
     "controls-target_d",
+    "traps-target",
+    "traps-target_b",
+    "traps-target_c",
+    "traps-target_d",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
