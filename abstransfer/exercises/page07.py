@@ -134,15 +134,14 @@ def evaluate(P, r, gamma):
         "from "
         "the actions available in each state?",
         -93.878854,
-        also=(None,),  # which part of the cost is waiting
+        also=(3.169556,),  # points of the wanderer's cost that are waiting
         tolerance=1e-3,  # the scenes print one digit
         hints=(
             "It is a uniform policy over fewer actions: `target.available` says which "
             "have somewhere to go.",
             "`at.uniform_policy` takes such a mask: `policy = "
             "at.uniform_policy(target.available)`.",
-            "`at.evaluate_policy(target.mdp, policy).mean()`, over all states. The "
-            "wanderer pays more; which part of that is waiting?",
+            "`at.evaluate_policy(target.mdp, policy).mean()`, over all states.",
         ),
         wrong=[
             Wrong(
@@ -165,6 +164,37 @@ def evaluate(P, r, gamma):
                 "the sign",
                 93.878854,
                 "The size is right. But the robot pays, so its value is below 0.",
+            ),
+        ],
+    ),
+    value(
+        "ex-7-2b",
+        "How many points of the wanderer's mean cost, in the target building, are "
+        "waiting: by how much is that robot better?",
+        3.169556,
+        tolerance=1e-3,
+        hints=(
+            "Both robots go in random directions. Only one of them waits.",
+            "The wanderer is `wanderer = at.uniform_policy(target.mdp.allowed)`; Table "
+            "1 has both.",
+            "Subtract: `-93.878854 - at.evaluate_policy(target.mdp, wanderer).mean()`.",
+        ),
+        wrong=[
+            Wrong("the sign", -3.169556, "The size is right. Better is more."),
+            Wrong(
+                "a share, not points",
+                0.032660,
+                "That is which share of its cost it is. Asked are points of Table 1.",
+            ),
+            Wrong(
+                "the steps, not the cost",
+                0.730251,
+                "So many of its steps are waiting. Asked is what that costs it.",
+            ),
+            Wrong(
+                "the other building",
+                10.195740,
+                "That is the source building; what is asked for is the target.",
             ),
         ],
     ),
