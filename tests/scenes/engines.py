@@ -16,7 +16,7 @@ import time
 import urllib.request
 from pathlib import Path
 
-PATIENCE = 120  # seconds
+PATIENCE = 600  # seconds
 PREFERENCES = {
     "marionette.port": 0,
     "datareporting.policy.dataSubmissionEnabled": False,

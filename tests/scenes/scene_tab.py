@@ -243,7 +243,8 @@ def scripts(body):
 @cache
 def probe():
     """A script that puts parts of the front end into the object `probe` of a page."""
-    spec = KINDS["microscope"].spec() | {"student": STUDENT}
+    scenes = KINDS["hill"].spec() | KINDS["microscope"].spec()
+    spec = scenes | {"student": STUDENT}
     said = front.said(spec=spec, isWidget=True)
     return f"((python) => {{\n{bundle.bundle_one(PROBE)}}})({said})"
 

@@ -41,7 +41,7 @@ READ = """async ([pressed]) => {
     const isBusy = (scene) =>
         scene.querySelector(".ab-closing")?.hidden ?? true;
     const waiting = { ...pressed };
-    const end = Date.now() + 90_000;
+    const end = Date.now() + 600_000;
     const left = () => scenes.filter((scene) => isBusy(scene) || /…|Stop \\(/.test(
         scene.querySelector(".ab-body").textContent));
     while ((left().length || Object.keys(waiting).length) && Date.now() < end) {
@@ -65,6 +65,9 @@ READ = """async ([pressed]) => {
     const busy = left().map((scene) => scene.dataset.scene);
     return { busy, ...Object.fromEntries(said) };
 }"""
+
+
+pytestmark = pytest.mark.timeout(900)  # all that scenes compute, at once
 
 
 @pytest.fixture(scope="module")

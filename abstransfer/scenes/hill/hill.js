@@ -12,11 +12,6 @@ const DASHES = ["5 3", "1.5 3", "8 3 1.5 3", "3 6"];
 const KEPT = 6; // earlier climbs
 const STEP = 0.05; // of the cross, by key
 const MOVES = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
-const STARTS = {
-  hall: "in the hall",
-  landing: "on the right landing",
-  both: "in either, equally often",
-};
 const ENDS = { same: "always on the same", other: "not always" };
 const clip = (x) => Math.min(Math.max(Math.round(x * 100) / 100, 0), 1);
 
@@ -187,7 +182,7 @@ defineScene("hill", {
         make(
           "div",
           { class: "ab-body" },
-          scene.choice("start", { label: "The robot starts", options: STARTS }),
+          scene.choice("start", { label: "The robot starts", options: land.WORDS }),
           knob("p", "Start: p (left in the hall)"),
           knob("q", "Start: q (up on a landing)"),
           words,
@@ -243,7 +238,7 @@ defineScene("hill", {
       });
       return {
         caption: `The climb, iteration by iteration; the robot starts ${
-          STARTS[state.start]
+          land.WORDS[state.start]
         }. All climbs by start (p, q), and where they end: ${climbs.join("; ")}.`,
         head: ["iteration", "p", "q", "value"],
         rows: way().slice(0, state.t + 1).map((

@@ -3,16 +3,13 @@
 
 import { absprobPi } from "../engine/absprob_pi.js";
 import { evaluatePolicy } from "../engine/solvers.js";
+import { spec } from "../python.js";
 
 export const N = 40; // squares along a side of the land
-export const LAST = 300; // iterations of a climb
-export const EARLY = 30; // after which it is on one side for good
+export const [, LAST] = spec.fields.t.bounds; // iterations of a climb
+const { early: EARLY } = spec; // after which it is on one side for good
 export const LEVELS = [-20, -10, -7, -5, -4.5, -4, -3.5, -3, -2.5, -2.2];
-export const STARTS = { // weights of hall, left landing, right landing, tunnel, goal
-  hall: [1, 0, 0, 0, 0],
-  landing: [0, 0, 1, 0, 0],
-  both: [0.5, 0, 0.5, 0, 0],
-};
+export const { weights: STARTS, words: WORDS } = spec; // of where the robot starts
 
 // The five states as tasks of the engine: two "directions" lead where the actions do.
 // In the tunnel both actions are one.

@@ -62,6 +62,7 @@ class Hill(Scene):
     """
 
     scene = "hill"
+    constants = {"early": EARLY, "weights": STARTS, "words": WORDS}
     p = traitlets.Float(0.3, min=0.0, max=1.0).tag(sync=True)
     q = traitlets.Float(0.3, min=0.0, max=1.0).tag(sync=True)
     start = traitlets.Enum(tuple(STARTS), "hall").tag(sync=True)

@@ -2,9 +2,11 @@
 // Forgetting a feature merges abstract states, so the sums are merged, not made again.
 
 import { A, navigationTasks } from "../engine/navigation.js";
+import { spec } from "../python.js";
 import { optimalActions, optimalValues } from "../engine/solvers.js";
 
-const Z = 2 ** 11;
+export const [, ALL] = spec.fields.features.bounds; // a bit for each feature
+const Z = ALL + 1;
 
 // One task after the other: states (Z,) that are no goal, by abstract state, and
 // `suits` (Z, A), in how many an action is optimal (if asked for).

@@ -1,10 +1,10 @@
 // What page 4 finds: the bets, the counts as bars, and the closing sentence.
 
+import { ALL } from "./counts.js";
 import { FEATURES } from "../engine/navigation.js";
 import { barChart } from "../ui/bars.js";
 import { count, make, number, plural } from "../ui/dom.js";
 
-const ALL = 2 ** 11 - 1;
 const BETS = { // with the numbers they stand for
   bet: { few: [90, "about 90"], some: [500, "about 500"], all: [2048, "nearly all"] },
   bet_new: {

@@ -3,7 +3,7 @@
 
 import { parseMap } from "../engine/maps.js";
 import { FEATURES, navigationTasks } from "../engine/navigation.js";
-import { counts, looks, tally } from "./counts.js";
+import { ALL, counts, looks, tally } from "./counts.js";
 import { findings } from "./found.js";
 import { building } from "../ui/building.js";
 import { button, toggle } from "../ui/controls.js";
@@ -11,7 +11,6 @@ import { make, place, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 import { sight, sights } from "../ui/sights.js";
 
-const ALL = 2 ** 11 - 1; // of a set of features, as of an abstract state, a bit each
 const CHOICES = { "All 11": ALL, "The 8 sights": 255, "No sights": ALL - 255, None: 0 };
 const SIDES = [["task", "source", "small"], ["away", "map", "large"]];
 

@@ -13,7 +13,7 @@ import { mapTexts, paper, spec } from "../python.js";
 import { count } from "../ui/dom.js";
 
 const { seed: SEED } = paper;
-export const GUIDES = ["nd", "prob", "grad", "eager", "rand"];
+export const GUIDES = spec.fields.guides.bounds;
 const half = (x) => Math.floor(x + 0.5);
 
 // Steps of a run and of advice, in the paper's proportions, rounded.

@@ -5,6 +5,7 @@ import { Run } from "../engine/learning.js";
 import { LABELS } from "../engine/navigation.js";
 import { ARMS } from "../engine/paper.js";
 import { NAMES, stateAt, sum, WINDOWS } from "../parts/runs.js";
+import { spec } from "../python.js";
 import { barChart } from "../ui/bars.js";
 import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
@@ -13,9 +14,9 @@ import { middle } from "../ui/plan.js";
 import { defineScene } from "../ui/scene.js";
 import * as runs from "../parts/runs.js";
 
-const FIRST = 1000; // steps that can be looked at
+const { racers: RACERS } = spec;
+const [, FIRST] = spec.fields.t.bounds; // steps that can be looked at
 const TRAIL = 40; // steps
-const RACERS = ["none", "rand-hard", "prob-hard", "nd-hard"];
 const PROBLEM = ["map", "source", "luck", "steps", "policy", "tau"];
 
 defineScene("race", {
@@ -47,7 +48,8 @@ defineScene("race", {
       chart.node,
       totals.node,
     );
-    const racers = ["none", "rand", "prob", "nd", hasOwn(scene.state) && "yours"].filter(Boolean);
+    const racers = RACERS.map((name) => name.replace("-hard", ""));
+    if (hasOwn(scene.state)) racers.push("yours");
     const all = () => `${scene.state.steps / 1e6} million steps`;
     scene.add(
       words,

@@ -48,6 +48,7 @@ class Race(RunScene):
     """
 
     scene = "race"
+    constants = {"racers": RACERS}
     luck = traitlets.Int(8, min=1, max=50).tag(sync=True)
     t = traitlets.Int(39, min=0, max=FIRST).tag(sync=True)
     policy = PolicyTrait().tag(local=True)

@@ -3,6 +3,7 @@
 
 import { ARMS, PAPER_STEPS, TAUS } from "../engine/paper.js";
 import { NAMES, sum } from "../parts/runs.js";
+import { spec } from "../python.js";
 import { barChart } from "../ui/bars.js";
 import { button } from "../ui/controls.js";
 import { count, make, millions } from "../ui/dom.js";
@@ -18,7 +19,7 @@ const BETS = { // up to this tau
   most: [30e6, "more than 12 million"],
 };
 const SIDES = ["hard", "soft"];
-const GUIDES = ["nd", "prob", "grad", "rand"];
+const GUIDES = spec.fields.guide.bounds;
 
 defineScene("tau", {
   title: "How long to advise",
