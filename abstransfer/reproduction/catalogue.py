@@ -158,6 +158,10 @@ _STORED = (
     "traps-target_b",
     "traps-target_c",
     "traps-target_d",
+    "operations-target",
+    "operations-target_b",
+    "operations-target_c",
+    "operations-target_d",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
