@@ -162,6 +162,7 @@ _STORED = (
     "operations-target_b",
     "operations-target_c",
     "operations-target_d",
+    "drawn",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
