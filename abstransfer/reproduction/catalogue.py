@@ -163,6 +163,10 @@ _STORED = (
     "operations-target_c",
     "operations-target_d",
     "drawn",
+    "masked-target",
+    "masked-target_b",
+    "masked-target_c",
+    "masked-target_d",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
