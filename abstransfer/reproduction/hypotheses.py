@@ -416,6 +416,26 @@ def hypotheses_table(judged: Mapping[str, Judged]) -> list[dict]:
     ]
 
 
+def places_table(judged: Mapping[str, Judged]) -> list[dict]:
+    """
+    Return a row for each hypothesis: predicted, known before, and place by place.
+
+    A part is told by its share of ND's lead, where it was asked for one, else by
+    its effect; several parts of a place stand one after the other.
+    """
+    said, rows = predictions(), []
+    for key, found in judged.items():
+        claim, _, predicted, known = said[key]
+        row = {"": key, "claim": claim, "predicted": predicted}
+        row |= {"known before": known or "nothing", "verdict": found.verdict}
+        for part in found.parts:
+            text = f"{100 * part.share:.0f} %" if part.share else part_text(part)
+            text = f"{text or part.what}: {part.verdict}"
+            row[part.where] = "; ".join(filter(None, (row.get(part.where), text)))
+        rows.append(row)
+    return rows
+
+
 def part_text(part: Part) -> str:
     """
     Return the effect of a part with its interval, and its share of the lead.
