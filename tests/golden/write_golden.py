@@ -15,14 +15,13 @@ import json
 from pathlib import Path
 
 import numpy as np
+from golden.foreign_texts import TEXTS
 
 import abstransfer as at
 from abstransfer.builders import abstract_policies
 from abstransfer.driving import PAPER
 from abstransfer.experiments.arms import ARMS
 from abstransfer.learning import q_learning
-
-from .foreign_texts import TEXTS
 
 HERE = Path(__file__).parent
 SHIPPED = ("source", "target", "target_b", "target_c", "target_d")
