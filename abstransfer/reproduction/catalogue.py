@@ -167,6 +167,9 @@ _STORED = (
     "masked-target_b",
     "masked-target_c",
     "masked-target_d",
+    "compass-target_b-tuned",
+    "compass-target_c-tuned",
+    "compass-target_d-tuned",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
