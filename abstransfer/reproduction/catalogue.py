@@ -170,6 +170,9 @@ _STORED = (
     "compass-target_b-tuned",
     "compass-target_c-tuned",
     "compass-target_d-tuned",
+    "goal-target-tau-fine",
+    "study-own-tau",
+    "study-own",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
