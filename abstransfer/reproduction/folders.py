@@ -38,9 +38,7 @@ class Experiment(NamedTuple):
 
     def run(self, out: str | Path, problem: Problem | None = None, **options):
         """Return the results, from its folder in `out`; see `reproduce`."""
-        changed = {"reward": self.reward, **self.problem}
-        problem = replace(problem or Problem(), target=read_map(self.target), **changed)
-        arms = self.arms(out)
+        problem, arms = self.here(problem), self.arms(out)
         made = {arm.guide for arm in arms} & {*ADVICE, *EXCHANGED} - set(GUIDES)
         options = {"n_runs": self.n_runs} | options
         return run_experiment(
@@ -51,6 +49,11 @@ class Experiment(NamedTuple):
             out=Path(out) / self.folder,
             **options,
         )
+
+    def here(self, problem: Problem | None = None) -> Problem:
+        """Return a problem, by default the book's, as it is read here."""
+        changed = {"reward": self.reward, **self.problem}
+        return replace(problem or Problem(), target=read_map(self.target), **changed)
 
     def arms(self, out: str | Path) -> tuple[Arm, ...]:
         """
@@ -83,14 +86,18 @@ class Operated(NamedTuple):
 
     def run(self, out: str | Path, problem: Problem | None = None, **options):
         """Return the results, from its folder in `out`; see `reproduce`."""
-        problem = problem or Problem()
-        if self.target:
-            problem = replace(problem, target=read_map(self.target))
         options = {"n_runs": self.n_runs} | options
         return run_operations(
-            problem,
+            self.here(problem),
             operations=OPERATIONS if self.target else MAIN,
             drawn=not self.target,
             out=Path(out) / self.folder,
             **options,
         )
+
+    def here(self, problem: Problem | None = None) -> Problem:
+        """Return a problem, by default the book's, as it is read here."""
+        problem = problem or Problem()
+        if not self.target:
+            return problem
+        return replace(problem, target=read_map(self.target))

@@ -231,7 +231,8 @@ def _claims_at_papers_tau(read: Read, where: str) -> Iterable[Part]:
 def _claims_at_own_tau(read: Read, where: str) -> Iterable[Part]:
     for entry in judge_reading(read(f"compass-{where}-tuned")):
         verdict = entry.verdict if entry.verdict in (HOLDS, UNDECIDED) else REFUTED
-        yield _of_claim(where, f"claim {entry.claim.key}: {entry.verdict}", verdict)
+        text = f"claim {entry.claim.key}, tau tuned in target: {entry.verdict}"
+        yield _of_claim(where, text, verdict)
 
 
 def _of_claim(where: str, what: str, verdict: str) -> Part:
@@ -317,12 +318,13 @@ def _over(read: Read, better: str, text: str, least: int | None) -> Iterable[Par
 def _drives(read: Read) -> Iterable[Part]:
     record = read("drawn").record
     for measure, best, text in (
-        ("letters", max, "ND delivers most letters in 500,000 steps"),
-        ("value", min, "ND drives worst by value at 0.99"),
+        ("letters", np.argmax, "ND delivers most letters in 500,000 steps"),
+        ("value", np.argmin, "ND drives worst by value at 0.99"),
     ):
         by_robot = record[measure]
-        first = [best(by_robot, key=lambda r, i=i: by_robot[r][i]) for i in range(20)]
-        yield of_count("drawn", text, np.array(first) == ND, 16)
+        values = np.array(list(by_robot.values()))  # (robots, N)
+        first = np.array(list(by_robot))[best(values, axis=0)]
+        yield of_count("drawn", text, first == ND, 16)
 
 
 def _ready_tells(read: Read) -> Iterable[Part]:

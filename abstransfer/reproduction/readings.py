@@ -18,11 +18,11 @@ from .claims import CLAIMS, Entry, ledger
 #: Folders of results by reading of the learner and by whose tau it has.
 READINGS = {
     ("labels, waits where it is not there", "paper's"): "goal-{}",
-    ("labels, waits where it is not there", "own, of target"): "goal-{}-tuned",
+    ("labels, waits where it is not there", "own, tuned in target"): "goal-{}-tuned",
     ("labels, only those that are there", "paper's"): "masked-{}",
-    ("labels, only those that are there", "own, of target"): "masked-{}-tuned",
+    ("labels, only those that are there", "own, tuned in target"): "masked-{}-tuned",
     ("compass", "paper's"): "compass-{}",
-    ("compass", "own, of target"): "compass-{}-tuned",
+    ("compass", "own, tuned in target"): "compass-{}-tuned",
 }
 
 

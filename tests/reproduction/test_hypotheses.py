@@ -183,7 +183,7 @@ def test_claims_at_own_tau_hold_where_the_ledger_says_so():
     assert right.verdict == "holds"
     assert wrong.verdict == "refuted in part"
     assert [part.what for part in wrong.parts if part.verdict == "refuted"] == (
-        4 * ["claim 4: fails in part"]
+        4 * ["claim 4, tau tuned in target: fails in part"]
     )
 
 
