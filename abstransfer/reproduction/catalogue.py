@@ -173,6 +173,11 @@ _STORED = (
     "goal-target-tau-fine",
     "study-own-tau",
     "study-own",
+    "masked-target-tau",
+    "masked-target-tuned",
+    "masked-target_b-tuned",
+    "masked-target_c-tuned",
+    "masked-target_d-tuned",
 )
 EXPERIMENTS = _FIRST_EDITION + tuple(
     experiment for experiment in _SECOND_EDITION if experiment.folder in _STORED
