@@ -3,6 +3,7 @@
 import os
 import re
 from concurrent.futures import Executor
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,9 @@ class Visit:
         context.route(ELSEWHERE, self._refuse)
         self.page = context.new_page()
         self.page.set_default_timeout(1000 * PATIENCE)
+        # Asked at each picture, as is usual, a page draws all the time: a third of all
+        # work, and it is taken from what the page is waiting for.
+        self.page.wait_for_function = partial(self.page.wait_for_function, polling=100)
         self.page.on("pageerror", lambda error: self.problems.append(str(error)))
         self.page.on("console", self._note)
 
