@@ -17,10 +17,13 @@ from nbformat.v4 import new_code_cell, new_notebook
 from playwright.sync_api import expect
 from support import PATIENCE, unavailable
 
+from abstransfer import scenes
+
 expect.set_options(timeout=1000 * PATIENCE)
 RUNS = count()  # what a cell said before is not what it says now
 
-CELL = "from abstransfer import scenes\n\n{0} = scenes.{0}()\n{0}"
+CELL = "from abstransfer import scenes\n\n{0} = scenes.{0}({1})\n{0}"
+SHORT = "steps=600_000"  # of what learns as soon as it is shown
 SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to push
     "Microscope": ("Step", "t", 110, 7),
     "Race": ("Step", "t", 38, 7),
@@ -43,7 +46,11 @@ def lab(tmp_path_factory):
     if not find_spec("jupyterlab"):
         unavailable("JupyterLab is not installed; run: pip install -e '.[test]'")
     folder = tmp_path_factory.mktemp("lab")
-    cells = [new_code_cell(CELL.format(name)) for name in SCENES]
+    short = {
+        name: SHORT if hasattr(getattr(scenes, name), "steps") else ""
+        for name in SCENES
+    }
+    cells = [new_code_cell(CELL.format(*each)) for each in short.items()]
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     cells.append(new_code_cell("1"))
     notebook = new_notebook(cells=cells, metadata={"kernelspec": kernel})
@@ -77,7 +84,7 @@ def lab(tmp_path_factory):
             yield f"{address}/lab/tree/scenes.ipynb?token={token}"
         finally:
             server.terminate()
-            server.wait(10)
+            server.wait(PATIENCE)
 
 
 def wait_for(url, server, log):
@@ -136,7 +143,7 @@ def run_last_cell(page, code):
     cell = page.locator(".jp-CodeCell").last
     cell.locator(".cm-content").click()
     page.keyboard.press("Control+a")
-    page.keyboard.type(f"{code}; print('{mark}')")
+    page.keyboard.insert_text(f"{code}; print('{mark}')")
     page.keyboard.press("Control+Enter")
     output = cell.locator(".jp-OutputArea-output", has_text=mark)
     output.wait_for()
