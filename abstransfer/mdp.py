@@ -69,6 +69,7 @@ class MDP:
         n_states, n_actions, _ = next_state.shape
         prob = as_array("prob", self.prob, np.float64, 3, next_state.shape)
         reward = as_array("reward", self.reward, np.float64, 1, (n_states,))
+        reward = reward + 0.0  # no -0.0: which of two zeros is larger is not defined
         terminal = as_array("terminal", self.terminal, np.bool_, 1, (n_states,))
         allowed = np.ones((n_states, n_actions), bool)
         if self.allowed is not None:

@@ -192,7 +192,7 @@ def _marks(checkpoints) -> tuple[int, ...]:
 def _values(mdp: MDP, q0) -> np.ndarray:
     """Return the values to start from, (S, A)."""
     shape = mdp.n_states, mdp.n_actions
-    values = numbers("q0", q0).astype(np.float64)
+    values = numbers("q0", q0).astype(np.float64) + 0.0  # as rewards: no -0.0
     if values.shape not in ((), shape):
         raise ValueError(
             f"q0 must be a number or have shape {shape}, got {values.shape}"

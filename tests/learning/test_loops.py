@@ -224,6 +224,20 @@ def test_the_fast_loop_equals_the_plain_one(phase, n_actions, n_outcomes):
         assert_same(one, other)
 
 
+def test_a_zero_has_no_sign_in_rewards_and_first_values():
+    """Which of two zeros is the larger, the two loops need not see alike."""
+    mdp = random_mdp(8, 30, 8, 5)
+    mdp = replace(mdp, reward=-np.zeros(mdp.n_states))
+    fast, plain = (
+        q_learning_runs(mdp, 3000, rngs=range(3), trace=trace, q0=-0.0)
+        for trace in (0, 3000)
+    )
+
+    for one, other in zip(fast, plain, strict=True):
+        assert one.q.tobytes() == other.q.tobytes()
+        assert not np.signbit(one.q[np.isfinite(one.q)]).any()
+
+
 @pytest.mark.parametrize("phase", PHASES)
 def test_both_loops_agree_on_the_target_map(phase):
     tasks = navigation_tasks(read_map("target"), reward="goal")
