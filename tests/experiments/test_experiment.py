@@ -5,6 +5,7 @@ import json
 import os
 import socket
 import threading
+import tracemalloc
 from concurrent.futures import Executor, ThreadPoolExecutor
 
 import numpy as np
@@ -13,7 +14,7 @@ from support import NoExecutor, unavailable
 
 from abstransfer import read_map
 from abstransfer.driving import advised, executed_values
-from abstransfer.experiments import workers
+from abstransfer.experiments import results, workers
 from abstransfer.experiments.arms import ARMS, SCALES, TAUS, Arm, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
 from abstransfer.experiments.problem import (
@@ -322,6 +323,22 @@ def test_a_table_that_does_not_fit_its_record_is_refused(tmp_path, expected):
         save_results(tmp_path, other)
         with pytest.raises(ValueError, match="goals.csv.gz: not a table of goals as"):
             load_results(tmp_path)
+
+
+def test_a_small_file_that_unpacks_to_a_large_one_is_refused_unread(
+    tmp_path, expected, monkeypatch
+):
+    bomb = gzip.compress(bytes(50_000_000))
+    record = {"parameters": parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS))}
+    monkeypatch.setattr(results, "_table", lambda results: bomb)
+    save_results(tmp_path, expected._replace(record=record))
+
+    tracemalloc.start()
+    with pytest.raises(ValueError, match="goals.csv.gz: not a table of goals as"):
+        load_results(tmp_path)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 10_000_000
 
 
 @pytest.mark.parametrize(
