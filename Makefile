@@ -4,6 +4,7 @@
 # make lab    open the notebooks in JupyterLab
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
+# make nightly  the long forms of the tests that draw what happens, an hour
 # make bench  measure the learning loops beside other people's, and the pages
 # make clean  remove what these made
 #
@@ -15,16 +16,18 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 DENO := DENO_DIR=.venv/share/deno $(BIN)/deno
 # The tests of a file share what is costly to make, so a file stays in one process.
-PYTEST := $(BIN)/python -m pytest --quiet -n 2 --dist loadfile --no-loadscope-reorder
+# The third process has work while another waits for a browser.
+PYTEST := $(BIN)/python -m pytest --quiet -n 3 --dist loadfile --no-loadscope-reorder \
+  --durations=15 --durations-min=5
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core lab pdf student bench clean env system
+.PHONY: book test test-core nightly lab pdf student bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core lab pdf student bench clean env system:
+book test test-core nightly lab pdf student bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -70,6 +73,13 @@ test: .venv/.book system
 # For a patch to the method: maps to learning, with the examples of their docstrings.
 test-core: .venv/.book
 	$(PYTEST) -m "not slow" $(CORE)
+
+# What is killed, filled up, interrupted or asked for at random; one after another,
+# for an interrupt is meant for one.
+nightly: .venv/.book system
+	DISTURBANCES=250 $(BIN)/python -m pytest --quiet --capture=tee-sys \
+	  tests/experiments/test_store.py tests/cli/test_interrupts.py \
+	  tests/scenes/test_addresses.py
 
 # On a build server the browser comes from the system's packages and no test is
 # skipped; elsewhere the tests that need it say how to get it.

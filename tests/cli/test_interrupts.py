@@ -25,7 +25,7 @@ COMMANDS = {  # and the seconds in which they are interrupted
 }
 SAID = ("abstransfer: interrupted", "abstransfer: compiling")
 LONG = "this may take about"  # said before
-# A few at each check; in the night: DISTURBANCES=100 pytest tests/cli
+# A few at each check; in the night: make nightly
 N = int(os.environ.get("DISTURBANCES", 6))
 
 

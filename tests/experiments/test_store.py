@@ -321,7 +321,7 @@ def test_where_nothing_was_done_another_experiment_may_begin(tmp_path):
     np.testing.assert_array_equal(start(tmp_path, "cost").goals, TABLES["cost"][1])
 
 
-# A share of what happens; in the night: DISTURBANCES=200 pytest tests/experiments
+# A share of what happens; in the night: make nightly
 N = int(os.environ.get("DISTURBANCES", 0))
 for machine in (Folder, Meddled):
     machine.TestCase.settings = settings(
