@@ -66,7 +66,7 @@ test: .venv/.book system
 	$(BIN)/python abstransfer/scenes/bundle.py
 	$(DENO) fmt --check
 	$(DENO) lint
-	$(DENO) check abstransfer/scenes book/_ext
+	$(DENO) check abstransfer book/_ext
 	$(MAKE) --no-print-directory book
 	$(PYTEST)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
+import random
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -100,8 +101,9 @@ class Exercise:
         """
         Return what a page needs to ask, to judge a value and to reply, for JSON.
 
-        Functions cannot be judged without Python: of them there are the hints, and
-        what is said to each mistake.  Infinity is the text "inf".
+        Functions cannot be judged without Python: instead of one, lines are chosen.  Of
+        each line there is the place of its mistake in `wrong`, null if it is right.
+        Infinity is the text "inf".
         """
         data = {
             "id": self.key,
@@ -110,8 +112,8 @@ class Exercise:
             "wrong": [{"name": w.name, "hint": w.hint} for w in self.wrong],
         }
         if self.cases:
-            signature = f"{self.name}({', '.join(self.parameters)})"
-            return data | {"kind": "function", "signature": signature}
+            blanks = {name: self._offered(name) for name in self.stub.blanks}
+            return data | {"kind": "lines", "code": self.stub.code, "blanks": blanks}
         for entry, wrong in zip(data["wrong"], self.wrong, strict=True):
             entry["answer"] = _plain(wrong.answer)
         return data | {
@@ -121,6 +123,16 @@ class Exercise:
             "share": self.share,
             "tolerance": self.tolerance,
         }
+
+    def _offered(self, blank: str) -> list[tuple[str, int | None]]:
+        """Return the lines for a blank, in an order that tells nothing."""
+        names = [wrong.name for wrong in self.wrong]
+        lines = [
+            (line, names.index(mistake) if mistake else None)
+            for mistake, line in self.stub.blanks[blank].items()
+        ]
+        random.Random(f"{self.key} {blank}").shuffle(lines)
+        return lines
 
 
 def _plain(value) -> float | str | None:

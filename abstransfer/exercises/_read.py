@@ -38,6 +38,8 @@ OPERATORS = {
     ast.UAdd: operator.pos,
 }
 USUAL = {"suppress": False, "formatter": {}, "floatmode": "maxprec", "sign": "-"}
+READ_ERRORS = (SyntaxError, ValueError, ArithmeticError, RecursionError, MemoryError)
+READ_ERRORS += (TypeError,)  # a root of a number below 0
 LONGEST = 200  # letters of a formula
 MOST = 100_000  # entries taken from something that could go on for ever
 
@@ -152,7 +154,7 @@ def formula(text: str) -> float:
         if len(bare) > LONGEST:
             raise ValueError("too long")
         number = _worth(ast.parse(bare.strip(), mode="eval").body)
-    except (SyntaxError, ValueError, ArithmeticError, RecursionError, MemoryError):
+    except READ_ERRORS:
         raise Unreadable(
             f"A number is asked for; `{short(text, 40)}` cannot be read as one"
         ) from None

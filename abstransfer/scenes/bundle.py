@@ -1,5 +1,6 @@
 """
-The scripts of the scenes, bundled: one file for each scene, and one for its workers.
+The scripts of the built page, bundled: one file for each scene, one for its workers,
+and one for the exercises.
 
 ``python -m abstransfer.scenes.bundle`` makes them anew where a source has changed.
 They lie in ``_bundles`` beside the sources, are no part of the repository, and are
@@ -41,9 +42,15 @@ def scenes() -> list[str]:
     return sorted({n for n in names if (FOLDER / n / f"{n}.js").is_file()})
 
 
+def answers() -> Path:
+    """Return the script of the exercises, beside the folder of the scenes."""
+    return FOLDER.parent / "exercises" / "page" / "answers.js"
+
+
 def sources() -> list[Path]:
     """Return all scripts that bundles are made of."""
-    return sorted(p for p in FOLDER.glob("**/*.js") if p.parent != BUNDLES)
+    found = [*FOLDER.glob("**/*.js"), *answers().parent.glob("*.js")]
+    return sorted(path for path in found if path.parent != BUNDLES)
 
 
 def digest() -> str:
@@ -56,7 +63,7 @@ def _digest(seen: tuple[tuple[Path, int], ...]) -> str:
     """Read the sources; not again while nobody has written them."""
     found = hashlib.sha256()
     for path, _ in seen:
-        found.update(path.relative_to(FOLDER).as_posix().encode() + b"\0")
+        found.update(path.relative_to(FOLDER.parent).as_posix().encode() + b"\0")
         found.update(hashlib.sha256(path.read_bytes()).digest())
     return found.hexdigest()
 
@@ -90,7 +97,8 @@ def build() -> bool:
         made_from = digest()
         with tempfile.TemporaryDirectory(dir=BUNDLES) as folder:
             paths = [FOLDER / name / f"{name}.js" for name in scenes()]
-            _bundle([*paths, WORKER], Path(folder))
+            paths += [path for path in (WORKER, answers()) if path.is_file()]
+            _bundle(paths, Path(folder))
             (BUNDLES / STAMP).unlink(missing_ok=True)
             for path in BUNDLES.glob("*.js"):
                 path.unlink()

@@ -123,7 +123,7 @@ def test_a_formula_in_a_text_is_read(key, answer):
         ("ex-5-3", (0.783, 6.6)),
         ("ex-5-3", [0.36 / 0.46, 7]),
         ("ex-7-2", (-93.88, 3.17)),
-        ("ex-7-2", np.array([-93.88, 0.5])),
+        ("ex-7-2", np.array([-93.88, 3.2])),
     ],
 )
 def test_both_numbers_may_be_given_where_two_were_asked_for(key, answer):
@@ -133,6 +133,7 @@ def test_both_numbers_may_be_given_where_two_were_asked_for(key, answer):
 def test_of_two_numbers_the_right_one_is_told():
     assert "Number 1 of yours is right" in check("ex-4-3", (88, 95)).text
     assert "Number 2 of yours is right" in check("ex-4-3", (87, 96)).text
+    assert "Number 1 of yours is right" in check("ex-7-2", (-93.88, 0.5)).text
     assert "of yours" not in check("ex-4-3", (96, 88)).text
 
 
@@ -143,6 +144,7 @@ def test_of_two_numbers_the_right_one_is_told():
         ("ex-9-1b", (0, 2828), "If a comma was to begin the decimals, write a point."),
         ("ex-1-2", "a hundred", "`a hundred` cannot be read as one"),
         ("ex-1-2", "9**9**9", "cannot be read as one"),
+        ("ex-1-2", "(-8)^(1/3)", "cannot be read as one"),
         ("ex-1-2", "__import__('os')", "cannot be read as one"),
         ("ex-1-2", "(" * 5000, "cannot be read as one"),
         ("ex-1-2", "", "cannot be read as one"),
@@ -393,8 +395,14 @@ def test_an_exercise_is_data_that_a_page_can_hold(exercise):
     assert data["hints"] == list(exercise.hints)
     assert [w["hint"] for w in data["wrong"]] == [w.hint for w in exercise.wrong]
     if exercise.cases:
-        assert data["kind"] == "function"
+        assert data["kind"] == "lines"
         assert "solution" not in data
+        for name, lines in data["blanks"].items():
+            mistakes = ["" if i is None else exercise.wrong[i].name for _, i in lines]
+            assert (
+                dict(zip(mistakes, dict(lines), strict=True))
+                == (exercise.stub.blanks[name])
+            )
     else:
         assert data["kind"] in ("numbers", "size", "word")
         assert check(exercise.key, data["solution"])
