@@ -37,6 +37,7 @@ ABOVE = (
     "plotting/",
     "reproduction/",
     "project/",
+    "gymnasium.py",
     "scenes/",
     "exercises/",
     "cli/",

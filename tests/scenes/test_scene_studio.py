@@ -5,6 +5,7 @@ import re
 import pytest
 import traitlets
 from buildings import tile_map
+from golden.foreign_texts import LARGER_CELLS, NAMED
 from scene_tab import bare, number
 
 from abstransfer.builders import abstract_policies
@@ -139,6 +140,8 @@ BROKEN = {
     "short line": SOURCE.replace("|\n", "\n", 1),
     "hole": drawn({(0, 1): " "}),
     "empty": "",
+    "another format": NAMED["a MovingAI map"][0],
+    "fenced": "```\n" + drawn({(9, 9): "*"}) + "\n```",
 }
 
 
@@ -157,6 +160,16 @@ def test_an_illegal_drawing_is_refused_in_pythons_words(studio):
     assert legal(studio) == "A legal building."
     assert solved(studio)["ND"][0].startswith("\u221244.05")
     assert studio.problems == []
+
+
+def test_a_maze_of_somebody_else_is_pasted_and_solved(studio):
+    text, meant = LARGER_CELLS["goal at the side"]
+    write(studio, text)
+
+    assert legal(studio) == "A legal building."
+    assert studio.page.locator("[data-cell]").count() == 2 * 3
+    optimal = column(navigation_tasks(parse_map(meant)), {})["optimal"]
+    assert number(solved(studio)["optimal"][0]) == pytest.approx(optimal)
 
 
 # By keyboard, by mouse
