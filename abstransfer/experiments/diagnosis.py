@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -124,8 +125,7 @@ def notes_after(
     # walk again, from notes that every update lowers, shows what was tried.
     above = 2 * mdp.reward.max() / (1 - gamma) + 1
     walks = q_learning_runs(mdp, tau, q0=above, **options)
-    game = replace(mdp, gamma=gamma)
-    best = optimal_values(game)[way].mean()
+    game, best = _game(mdp, gamma)
     tried = [(run.q != above)[way][mdp.allowed[way]].mean() for run in walks]
     noted = [(run.q.max(axis=1) > 0)[way].mean() for run in runs]
     skill = [
@@ -135,6 +135,13 @@ def notes_after(
     goals = [run.goals.sum() for run in runs]
     able = [ready(mdp, run.q) for run in runs]
     return Notes(*map(np.array, (goals, tried, noted, skill, able)))
+
+
+@lru_cache(maxsize=1)
+def _game(mdp: MDP, gamma: float) -> tuple[MDP, float]:
+    """Return an MDP with another discount, and its best mean value on the way."""
+    game = replace(mdp, gamma=gamma)
+    return game, optimal_values(game)[~mdp.terminal].mean()
 
 
 def obeyed(q: np.ndarray, allowed: np.ndarray, epsilon: float = 0.0) -> np.ndarray:
