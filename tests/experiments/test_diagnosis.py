@@ -86,7 +86,7 @@ def test_notes_of_a_walk_that_is_known_step_by_step():
     assert (found.noted == 1).all()
     assert found.skill == pytest.approx(np.ones(4))
     assert found.ready == pytest.approx(np.ones(4))
-    assert ((100 <= found.goals) & (found.goals <= 300)).all()  # of 1 to 3 steps each
+    assert ((found.goals >= 100) & (found.goals <= 300)).all()  # of 1 to 3 steps each
     assert (none.goals, none.noted) == (0, 0)
     assert none.tried == pytest.approx(1 / 6)  # it stays in its first cell
     # Blank notes are obeyed by tossing a coin: V(s) = gamma (V(s) + V(s+1)) / 2,
