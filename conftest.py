@@ -7,7 +7,7 @@ from nbval.plugin import IPyNbCell
 COMPARED = {"metadata", "traceback", "name", "output_type"}
 # Seconds until a message of the kernel must be there.  nbval gives up after 5, which a
 # busy machine may take.
-PATIENCE = 120
+PATIENCE = 1000
 
 
 def pytest_collection_modifyitems(items):

@@ -72,7 +72,7 @@ class Visit:
         self.page.goto((self.folder / f"{name}.html").as_uri() + query)
         return self.page
 
-    def is_idle(self, seconds=10):
+    def is_idle(self, seconds=60):
         """Whether no worker is left; a tab hears of their end a little later."""
         for _ in range(20 * seconds):
             if not self.page.workers:

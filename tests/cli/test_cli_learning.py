@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support import PATIENCE
 
 from abstransfer.cli import main
 from abstransfer.experiments.results import load_results
@@ -259,7 +260,7 @@ def test_ctrl_c_ends_with_130_and_says_how_to_go_on(tmp_path):
     process = start(*PAGE, "--runs", "18", "--out", str(tmp_path))
     wait_for_parts(process, tmp_path, 1)
     os.killpg(process.pid, signal.SIGINT)  # a terminal sends it to the whole group
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=PATIENCE)
 
     assert process.returncode == 130
     assert "the same command goes on from there" in err
@@ -273,7 +274,7 @@ def test_a_dead_worker_ends_with_a_message(tmp_path):
     wait_for_parts(process, tmp_path, 1)
     for worker in workers(process.pid):
         os.kill(worker, signal.SIGKILL)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=PATIENCE)
 
     assert process.returncode == 2
     assert "a worker process died" in err

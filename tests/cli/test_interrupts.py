@@ -10,6 +10,7 @@ from collections import Counter
 from contextlib import suppress
 
 import pytest
+from support import PATIENCE
 
 import abstransfer
 
@@ -44,7 +45,9 @@ def interrupt(name, seconds, folder):
     time.sleep(seconds)
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to all of them
-    _, err = process.communicate(timeout=120)  # until all that write there have ended
+    _, err = process.communicate(
+        timeout=PATIENCE
+    )  # until all that write there have ended
     return process.returncode, err
 
 
