@@ -62,9 +62,9 @@ class Visit:
         context.route(ELSEWHERE, self._refuse)
         self.page = context.new_page()
         self.page.set_default_timeout(1000 * PATIENCE)
-        # Asked at each picture, as is usual, a page draws all the time: a third of all
-        # work, and it is taken from what the page is waiting for.
-        self.page.wait_for_function = partial(self.page.wait_for_function, polling=100)
+        # Asked at each picture, as is usual, a page draws all the time, and what it
+        # waits for has less of the processor.
+        self.page.wait_for_function = partial(self.page.wait_for_function, polling=40)
         self.page.on("pageerror", lambda error: self.problems.append(str(error)))
         self.page.on("console", self._note)
 
