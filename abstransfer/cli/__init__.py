@@ -8,12 +8,10 @@ imported after `main` has begun.
 
 from __future__ import annotations
 
-import argparse
+# Nothing more here: until `main` has begun, Ctrl-C is a traceback.
 import os
 import signal
 import sys
-from contextlib import contextmanager
-from importlib import import_module
 
 COMMANDS = ("table1", "learn", "experiment", "figures", "doctor")
 
@@ -33,33 +31,47 @@ def program() -> None:
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command; return its exit code."""
-    _open_streams()
-    with _interrupts() as seen:
-        try:
-            arguments = _parser().parse_args(argv)
-            code = arguments.run(arguments)
-            sys.stdout.flush()
-            return code
-        except SystemExit:
+    seen = []  # whether Ctrl-C came: code that is cut off may make another error of it
+
+    def note(number, frame):
+        seen.append(number)
+        raise KeyboardInterrupt
+
+    before = _on_interrupt(note)
+    try:
+        _open_streams()
+        arguments = _parser().parse_args(argv)
+        code = arguments.run(arguments)
+        sys.stdout.flush()
+        return code
+    except SystemExit:
+        raise
+    except BaseException as error:
+        interrupted = isinstance(error, KeyboardInterrupt)
+        if seen or interrupted:
+            how_to_go_on = interrupted or isinstance(error, ChildProcessError)
+            words = map(str, error.args) if how_to_go_on else ()
+            code, text = 130, "; ".join(["interrupted", *words])
+        elif isinstance(error, BrokenPipeError):
+            # The reader has seen enough, as `| head` does.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 0
+        elif isinstance(error, ValueError | OSError):
+            code, text = 2, error
+        elif isinstance(error, MemoryError):
+            code, text = 2, "there is not enough memory for this"
+        else:
             raise
-        except BaseException as error:
-            if seen or isinstance(error, KeyboardInterrupt):
-                code, text = 130, "; ".join(["interrupted", *map(str, error.args)])
-            elif isinstance(error, BrokenPipeError):
-                # The reader has seen enough, as `| head` does.
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-                return 0
-            elif isinstance(error, ValueError | OSError):
-                code, text = 2, error
-            elif isinstance(error, MemoryError):
-                code, text = 2, "there is not enough memory for this"
-            else:
-                raise
-            print(f"abstransfer: {text}", file=sys.stderr)
-            return code
+        print(f"abstransfer: {text}", file=sys.stderr)
+        return code
+    finally:
+        _on_interrupt(before)
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser():
+    import argparse
+    from importlib import import_module
+
     parser = argparse.ArgumentParser(
         prog="abstransfer",
         description="Transfer learning by abstract policies (Freire & Costa 2015).",
@@ -75,28 +87,12 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-@contextmanager
-def _interrupts():
-    """
-    Yield a list which fills when Ctrl-C comes.
-
-    Code that is cut off may make another error of the interrupt.
-    """
-    seen = []
-
-    def note(number, frame):
-        seen.append(number)
-        raise KeyboardInterrupt
-
+def _on_interrupt(handler):
+    """Set what Ctrl-C does; return what it did, or None."""
     try:
-        before = signal.signal(signal.SIGINT, note)
+        return handler and signal.signal(signal.SIGINT, handler)
     except ValueError:  # not in the main thread: Ctrl-C does not come here
-        yield seen
-        return
-    try:
-        yield seen
-    finally:
-        signal.signal(signal.SIGINT, before)
+        return None
 
 
 def _open_streams() -> None:
