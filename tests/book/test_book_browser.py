@@ -1,13 +1,12 @@
 """The built book in a browser, opened from files, with the network cut."""
 
 import re
-from importlib.resources import files
 
 import pytest
+from legible import faults, pale
 from support import Visit, toc_pages
 from test_pages import BOOK, LESSONS, questions, text_of
 
-AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 # What the theme itself does wrong: (rule, part of the element).
 KNOWN = (
     ("region", "sidebar-primary-item"),
@@ -15,30 +14,6 @@ KNOWN = (
     ("aria-deprecated-role", "doc-biblioentry"),
     ("aria-required-children", "citation-list"),
 )
-# Text of one look (letters, and all that lies behind them) has one contrast.  Of each
-# look two are asked, the longest and the last: axe does not judge a single letter, nor
-# what the head of the sidebar covers.
-OF_EACH_LOOK = r"""() => {
-    const looks = new Map();
-    const seen = { opacityProperty: true, visibilityProperty: true };
-    const said = (node) => node.nodeType === Node.TEXT_NODE ? node.data.trim() : "";
-    const length = (e) => Math.max(...[...e.childNodes].map((n) => said(n).length));
-    for (const e of document.querySelectorAll("body, body *")) {
-        const speaks = length(e) > 0 || e.matches("input, select, textarea");
-        if (!speaks || !e.checkVisibility(seen)) continue;
-        const { color, fontSize, fontWeight } = getComputedStyle(e);
-        const look = [color, fontSize, fontWeight];
-        for (let at = e; at; at = at.parentElement) {
-            const { backgroundColor, backgroundImage, opacity } = getComputedStyle(at);
-            look.push(backgroundColor, backgroundImage, opacity);
-            if (backgroundColor.startsWith("rgb(")) break;
-        }
-        const key = look.filter((x) => !["1", "none", "rgba(0, 0, 0, 0)"].includes(x));
-        looks.set(`${key}`, [...looks.get(`${key}`) ?? [], e]);
-    }
-    const longest = (a, b) => length(b) > length(a) ? b : a;
-    return [...looks.values()].flatMap((of) => [of.reduce(longest), of.at(-1)]);
-}"""
 WIDE, PHONE, SMALL = ({"width": width, "height": 900} for width in (1440, 400, 320))
 # Scenes live, letters are there, nothing glides, and it was painted.
 DRAWN = """async () => {
@@ -89,10 +64,7 @@ def test_a_page_draws_its_formulas(page):
 
 
 def test_a_page_is_accessible(page):
-    page.evaluate(AXE)
-
-    assert faults(page, rules="{ 'color-contrast': { enabled: false } }") == []
-    assert pale(page) == []
+    assert unknown(faults(page)) == []
 
 
 def test_a_page_fits_a_phone(page):
@@ -128,7 +100,7 @@ def test_a_page_and_its_pictures_are_legible_in_the_dark(page):
     page.wait_for_function("document.documentElement.dataset.theme == 'dark'")
     drawn(page)
 
-    assert pale(page) == []
+    assert unknown(pale(page)) == []
     pictures = page.locator("article img").evaluate_all(
         "images => images.map(i => getComputedStyle(i))"
         ".map(style => style.backgroundColor + ' ' + style.filter)"
@@ -152,32 +124,17 @@ def test_letters_of_formulas_come_from_the_books_own_font(visit):
 
 def test_one_pale_word_is_found(tab):
     page = drawn(tab.open("notation"))
-    page.evaluate(AXE)
     page.locator("article p").first.evaluate("p => p.innerHTML += ' <i>pale</i>'")
-    assert pale(page) == []
+    assert unknown(pale(page)) == []
     page.locator("article p i").first.evaluate("word => word.style.color = '#999'")
 
-    ((rule, html, _),) = pale(page)
+    ((rule, html, _),) = unknown(pale(page))
     assert rule == "color-contrast"
     assert html == '<i style="color: rgb(153, 153, 153);">pale</i>'
 
 
-def pale(page):
-    """Return what has too little contrast."""
-    return faults(page, f"({OF_EACH_LOOK})()", runOnly="['color-contrast']")
-
-
-def faults(page, where="document", **options):
-    """Return what axe finds in a part of a page, but for what is known of the theme."""
-    # No preload: axe would ask for the style sheets anew, which files refuse.
-    options |= {"resultTypes": "['violations']", "preload": "false"}
-    options = ", ".join(f"{key}: {value}" for key, value in options.items())
-    result = page.evaluate(f"axe.run({where}, {{ {options} }})")
-    found = [
-        (violation["id"], node["html"], node["failureSummary"])
-        for violation in result["violations"]
-        for node in violation["nodes"]
-    ]
+def unknown(found):
+    """Return what axe found, but for what is known of the theme."""
     return [f for f in found if not any(r == f[0] and s in f[1] for r, s in KNOWN)]
 
 

@@ -2,16 +2,15 @@
 
 import re
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
+from legible import faults
 
 from abstransfer.scenes import KINDS, Filling, bundle
 from abstransfer.scenes import files as front
 from abstransfer.scenes.parts.student import STUDENT
 
-AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>A scene</title>
 <meta name="viewport" content="width=device-width"><style>{style}</style></head>
@@ -209,14 +208,7 @@ class SceneTab:
         return self.page.url[self.page.url.index("#") :]
 
     def violations(self):
-        self.page.evaluate(AXE)
-        result = self.page.evaluate("axe.run('.abstransfer-scene')")
-        assert len(result["passes"]) > 10
-        return [
-            (violation["id"], node["html"], node["failureSummary"])
-            for violation in result["violations"]
-            for node in violation["nodes"]
-        ]
+        return faults(self.page, ".abstransfer-scene")
 
     def small_controls(self):
         """Controls that are less than 24 px wide or high."""
