@@ -12,6 +12,7 @@ from abstransfer.scenes.files import bundled
 
 ALL = {e.key: e for e in (*all_exercises(), *all_open_exercises())}
 VALUE, TWO, WORD, LINES, OPEN = "ex-1-1", "ex-7-2", "ex-7-4", "ex-3-1", "ex-0-1"
+STUB = f"<pre>{ALL[LINES].stub.code.splitlines()[0]}\n    ...</pre>"
 PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Page</title>
 <meta name="viewport" content="width=device-width"><style>{style}</style></head>
 <body class="bd-content"><main><section id="exercises"><h1>Exercises</h1>
@@ -24,7 +25,7 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("book")
     style = (ROOT / "book" / "_assets" / "book.css").read_text(encoding="utf-8")
     boxes = "\n".join(
-        f'<div class="exercise" id="{key}">{parts(key)}</div>'
+        f'<div class="exercise" id="{key}">{STUB * (key == LINES)}{parts(key)}</div>'
         for key in (VALUE, TWO, WORD, LINES, OPEN)
     )
     for name, exercises in (("01_building", boxes), ("02_solving", "")):
@@ -94,6 +95,7 @@ def test_lines_are_chosen_and_shown_where_they_belong(page):
 
     assert told.startswith("Not yet. This looks like: a cut is a goal.")
     assert choose(page, LINES) == "Right. It agrees in every case."
+    assert not page.locator(f"#{LINES} > pre").is_visible(), "the stub shows twice"
     code = box(page, LINES).locator("pre").inner_text()
     assert code.strip() == ALL[LINES].stub.filled().strip()
 
@@ -218,6 +220,7 @@ def test_a_box_is_printed_as_a_line_to_write_on(page):
 
     assert not page.locator(".ab-ask").first.is_visible()
     assert not page.locator(".ab-answers-tools").is_visible()
+    assert page.locator(f"#{LINES} > pre").is_visible()
     looks = box(page, VALUE).evaluate("e => getComputedStyle(e).borderBottomStyle")
     assert looks == "solid"
     page.emulate_media(media="screen")

@@ -38,9 +38,23 @@ export function showBox(element, task) {
     kept: (name) => kept(page, task.id + name),
   };
   const { node, show } = task.kind === "open" ? notes(store) : question(element, task, store);
+  if (task.kind === "lines") hideStub(element.parentElement, task.code);
   element.append(node);
   show();
   onReplaced(show);
+}
+
+/**
+ * On the screen the box shows the code with its blanks: once is enough.
+ *
+ * @param {HTMLElement} exercise
+ * @param {string} code
+ */
+function hideStub(exercise, code) {
+  const head = code.split("\n")[0];
+  for (const pre of exercise.querySelectorAll("pre")) {
+    if (pre.textContent.startsWith(head)) pre.classList.add("ab-in-box");
+  }
 }
 
 function notes(store) {
