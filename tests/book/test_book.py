@@ -8,6 +8,8 @@ import pytest
 from bs4 import BeautifulSoup
 from support import ROOT, toc_pages
 
+from abstransfer.exercises import exercises_of, open_exercises_of
+
 PAGES = toc_pages()
 LOADS = {  # what a browser fetches by itself, and from which attribute
     "script": "src",
@@ -67,6 +69,25 @@ def test_every_picture_is_described(html, name):
         alt = picture.get("alt", "")
         assert 40 <= len(alt) <= 300, f"{picture['src']}: {alt!r}"
         assert not alt.startswith("_images/")
+
+
+@pytest.mark.parametrize("page", range(12))
+def test_each_exercise_has_a_box_and_its_hints_one_inside_the_other(html, page):
+    (name,) = (name for name in PAGES if name.startswith(f"{page:02d}_"))
+    text = soup(html / f"{name}.html")
+    for key, exercise in (exercises_of(page) | open_exercises_of(page)).items():
+        place = text.find(id=key.rstrip("b"))
+        boxes = [box for box in place.select(".ab-answer") if f'"{key}"' in str(box)]
+        hint, words = boxes[0].find_next_sibling("details"), []
+        while hint:
+            words.append(" ".join(hint.find("p").get_text().split()))
+            hint = hint.find("details")
+
+        assert len(boxes) == 1
+        # Stars are of stress or of products, and stay in code.
+        marks = str.maketrans("", "", "`*")
+        told = [word.translate(marks) for word in words]
+        assert told == [hint.translate(marks) for hint in exercise.hints]
 
 
 def test_no_page_loads_anything_from_elsewhere(html):
