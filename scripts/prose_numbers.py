@@ -54,7 +54,7 @@ NOT_PROSE = [
 DRAWN = re.compile(r"<svg[^>]*?(?: aria-label=\"([^\"]*)\"[^>]*)?>.*?</svg>", re.S)
 TAG = re.compile(r"<[^>]*>")
 LECTURER = re.compile(r"^(`{3,})\{admonition\} For the lecturer.*?^\1", re.M | re.S)
-ABOUT = re.compile(r"\b(?:about|nearly|almost|roughly|some) $")  # within a twentieth
+ABOUT = re.compile(r"\b(?:[Aa]bout|nearly|almost|roughly|some) $")  # within a twentieth
 SCALES = {"million": 1e6, "thousand": 1e3}
 
 

@@ -52,6 +52,20 @@ def test_a_quiz_has_three_questions_each_with_one_right_choice(lesson):
         assert all(len(reply.split()) >= 4 for reply in replies), "a reply says why"
 
 
+def test_the_right_choice_stands_in_every_place_alike():
+    """As the seed of a shuffle left it: no place is a good guess."""
+    asked = [choices for path in LESSONS for choices in questions(text_of(path))]
+    three = [choices for choices in asked if len(choices) == 3]
+    places = [
+        [reply.strip().startswith("Yes") for _, reply in choices].index(True)
+        for choices in three
+    ]
+
+    assert len(three) >= 30
+    for place in range(3):
+        assert places.count(place) >= len(three) / 4
+
+
 @pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.stem)
 def test_headings_start_at_the_first_level_and_skip_none(path):
     text = re.sub(r"^(`{3,}).*?^\1", "", text_of(path), flags=re.DOTALL | re.MULTILINE)

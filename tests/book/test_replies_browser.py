@@ -1,0 +1,128 @@
+"""The built pages reply: to bets, to their quiz, to links to a moment of the scene."""
+
+import pytest
+from test_bets import BETS, PAGES, plain
+from test_moments import links
+
+LIVE = "() => !document.querySelector('.abstransfer-scene:not(.ab-live)')"
+NAMES = [path.stem for path in PAGES]
+STATE = "() => document.querySelector('.ab-body').innerHTML"
+CALM = """() => new Promise((done) => {
+    const pictures = (n) => n ? requestAnimationFrame(() => pictures(n - 1)) : done();
+    pictures(4);
+})"""
+
+
+@pytest.fixture
+def opened(visit):
+    """Open a page of the book with its scenes alive."""
+
+    def open_page(name, query="", **looks):
+        tab = visit(**looks)
+        page = tab.open(name, query)
+        page.wait_for_function(LIVE)
+        return page, tab
+
+    return open_page
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_bet_is_placed_by_keyboard_folds_and_is_replied_to(opened, name):
+    page, tab = opened(name)
+    for bet in BETS[name]:
+        box, reply = (
+            page.locator(f"#{kind}{bet.name.removeprefix('bet-')}")
+            for kind in ("bet-", "reply-")
+        )
+        options = box.get_by_role("group").get_by_role("button")
+        wrong = next(o for o in bet.options if plain(o) != plain(bet.answer))
+        assert options.count() == len(bet.options) + bool(bet.asks)
+        for option, end in ((wrong, "”."), (bet.answer, "”: right.")):
+            index = [plain(o) for o in bet.options].index(plain(option))
+            options.nth(index).focus()
+            page.keyboard.press("Enter")
+            assert not options.first.is_visible(), "it folds"
+            change = box.get_by_role("button", name="Your bet:")
+            assert change.evaluate("e => e === document.activeElement")
+            assert reply.locator(".bet-said").inner_text().endswith(end)
+            page.keyboard.press("Enter")
+            assert options.first.is_visible()
+    page.evaluate(CALM)
+    assert tab.problems == []
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if any(b.asks for b in BETS[n])])
+def test_a_scene_and_its_page_say_a_bet_in_the_same_words(opened, name):
+    page, tab = opened(name)
+    for bet in (b for b in BETS[name] if b.asks):
+        box = page.locator(f"#{bet.name}")
+        for index in range(len(bet.options)):
+            if not box.locator(".bet-option").first.is_visible():
+                box.get_by_role("button", name="Your bet:").click()
+            button = box.locator(".bet-option").nth(index)
+            text = button.evaluate("b => b.textContent")
+            button.click()
+            line = page.locator(f'.ab-bet:has(a[href="#{bet.name}"])')
+            line.get_by_text(f"You bet on “{text}”.").wait_for()
+    assert tab.problems == []
+
+
+def test_a_bet_and_a_choice_are_kept_and_forgotten(opened):
+    name = "03_learning"
+    page, tab = opened(name)
+    bet, *_ = BETS[name]
+    page.locator(f"#{bet.name} .bet-option").first.click()
+    page.locator("#quiz summary").nth(1).click()
+    page.reload()
+    page.wait_for_function(LIVE)
+
+    assert page.locator(f"#{bet.name}.bet-folded").count() == 1
+    assert page.locator("#quiz details[open]").count() == 1
+    page.evaluate(
+        "sessionStorage.clear(), dispatchEvent(new Event('abstransfer:kept'))"
+    )
+    assert page.locator(".bet-folded").count() == 0
+    assert page.locator("#quiz details[open]").count() == 0
+    assert tab.problems == []
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_link_changes_the_scene_and_back_returns(opened, name):
+    page, tab = opened(name)
+    page.evaluate("window.isSame = true")
+    assert links(PAGES[NAMES.index(name)])
+    for link in page.locator("article a[href^='#'][href*='=']").all():
+        page.evaluate(CALM)
+        before, place = page.evaluate(STATE), page.evaluate("scrollY")
+        link.click()
+        back = page.get_by_role("button", name="Back to the text")
+        back.wait_for()
+        page.evaluate(CALM)
+        scene = page.locator(".abstransfer-scene").first
+        assert page.evaluate(STATE) != before, link.get_attribute("href")
+        assert scene.locator(".ab-now", has_text="stays as it was").count() == 0
+        assert scene.bounding_box()["y"] < 900, "it is in sight"
+        back.click()
+        page.wait_for_function("hash => location.hash === hash", arg="")
+        page.evaluate(CALM)
+        assert link.evaluate("e => e === document.activeElement")
+        assert back.count() == 0
+        assert place
+    assert page.evaluate("isSame"), "the page was not loaded anew"
+    assert tab.problems == []
+
+
+def test_a_page_without_scripts_reads_as_it_stands(html, chromium):
+    context = chromium.new_context(java_script_enabled=False)
+    try:
+        page = context.new_page()
+        page.goto((html / "03_learning.html").as_uri())
+        for bet in BETS["03_learning"]:
+            box = page.locator(f"#{bet.name}")
+            assert box.locator("li").count() == len(bet.options)
+            reply = page.locator(f"#{bet.name.replace('bet-', 'reply-')}")
+            assert bet.answer in reply.inner_text()
+        page.locator("summary", has_text="What you should have seen").click()
+        assert page.locator("details[open] li").count() >= 3
+    finally:
+        context.close()
