@@ -186,6 +186,7 @@ export interface Scene {
   add: (...nodes: any[]) => void;
   row: (...nodes: any[]) => HTMLElement;
   onLeave: (f: () => void) => void;
+  onReset: (f: () => void) => void;
   control: (name: string, show: (value: any, bounds: any) => void) => void;
   slider: (name: string, options: object) => HTMLElement;
   choice: (name: string, options: object) => HTMLElement;
@@ -193,7 +194,7 @@ export interface Scene {
   button: (text: string, act: () => void, options?: ButtonOptions) => HTMLElement;
   timeline: (name: string, options?: TimelineOptions) => HTMLElement;
   bet: (name: string, options: { question: string; options: Record<string, any> }) => HTMLElement;
-  betResult: (name: string, truth: string) => string;
+  betResult: (name: string, truth: string, other?: string) => string;
   bets: Record<string, Record<string, string>>;
   open: () => void;
   say: (sentence: string) => void;

@@ -26,7 +26,7 @@ HEARD = """async (n) => {
     slider.value = slider.min;
     while (n--) {
         slider.stepUp();
-        slider.dispatchEvent(new Event("input"));
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
         await new Promise(requestAnimationFrame);
     }
     const before = written;

@@ -32,7 +32,7 @@ defineScene("dial", {
   build(scene) {
     let source, target, prob, drives, worlds; // drives: [in source, in target] by beta
     let running = []; // { point, n, goals } of workers
-    let [timer, isBegun] = [null, false];
+    let [timer, place] = [null, ""];
 
     const policyOf = (beta) => betaPolicy(prob, beta);
     const drive = (
@@ -91,8 +91,9 @@ defineScene("dial", {
       [drives, worlds, running] = [{}, {}, []];
       [source, target] = [state.source, state.map].map((text) => navigationTasks(parseMap(text)));
       ({ prob } = inducedPolicies(source));
-      if (isBegun) scene.set({ points: [] }); // they were of other buildings
-      isBegun = true;
+      const of = state.source + state.map;
+      if (place && place !== of) scene.set({ points: [] }); // they were of other buildings
+      place = of;
       clearTimeout(timer);
       timer = setTimeout(driveAll);
     }

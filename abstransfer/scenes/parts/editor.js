@@ -8,7 +8,7 @@ import { mapTexts } from "../python.js";
 import { describeCell } from "./drawing.js";
 import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
-import { make } from "../ui/dom.js";
+import { make, place } from "../ui/dom.js";
 
 const MANY = 1500; // cells: from here on, solving waits to be asked for
 const SLICE = 15; // milliseconds of work between two pictures
@@ -66,7 +66,7 @@ export function makeEditor(scene, options = {}) {
   function read() {
     const { text } = scene.state;
     const before = me.map;
-    if (text === me.text) return;
+    if (text === me.text) return onMap?.(me.problem);
     me.text = text;
     [me.problem, me.bad] = ["", []];
     try {
@@ -88,6 +88,9 @@ export function makeEditor(scene, options = {}) {
     me.view.map(map);
     legal.classList.toggle("ab-now", Boolean(me.problem));
     legal.textContent = me.problem ? `Not legal yet: ${me.problem}.` : "A legal building.";
+    if (me.bad.length) {
+      legal.append(` (Of the text; as a cell: ${place(map, me.bad[0])}.)`);
+    }
     if (me.problem) scene.say(legal.textContent);
     tools.write(text);
     isAsked = false;

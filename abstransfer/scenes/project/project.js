@@ -29,7 +29,7 @@ defineScene("project", {
   title: "Your turn: a race in your own building",
   build(scene) {
     const { state } = scene;
-    let [found, isWanted, isBegun] = [null, false, false];
+    let [found, isWanted] = [null, false];
     let [asked, done] = [1, 0]; // tenths of runs
 
     const me = makeEditor(scene, { buildings: { "The school": scene.spec.state.text } });
@@ -220,7 +220,13 @@ defineScene("project", {
       const mean = none.reduce((a, b) => a + b, 0) / lives;
       return (
         `${
-          isSchool && raced.length === 3 ? scene.betResult("bet", truth) : ""
+          scene.betResult(
+            "bet",
+            truth,
+            isSchool && raced.length === 3
+              ? ""
+              : "the school, with the paper's advice of all three",
+          )
         } A run without advice reaches ` +
         `${count(mean)} goals. Of ${lived(lives)} with the same luck, ${list(words)}.` +
         `${
@@ -272,7 +278,7 @@ defineScene("project", {
         : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS}.`;
       status.textContent = saying();
       start.set(`Race: ${lived(state.lives)} of ${plural(robots().length, "robot")}`);
-      start.enable((mayRace() && !isDone()) || start.node === document.activeElement); // it keeps the focus
+      start.enable(mayRace() && !isDone());
       stop.node.hidden = !scene.isLearning && !isWanted;
       const racing = guides().filter((name) => more(name).length);
       key.parentNode.hidden = !racing.length;
@@ -304,8 +310,8 @@ defineScene("project", {
       if (isNew || changed.has("strategy")) {
         scene.stop();
         isWanted = false;
-        if (isBegun) scene.set({ goals: {} }); // they were of another race
-        isBegun = true;
+        const isStart = changed.size === Object.keys(state).length;
+        if (!isStart) scene.set({ goals: {} }); // they were of another race
       }
       if (isNew) prepare();
       show();

@@ -13,7 +13,7 @@ const MEANT = 8; // pixels that a finger moves along a slider that it means to m
 export function slider({ label, min = 0, max = 1, step = 1, format = String, onInput }) {
   const id = newId();
   // Silent: the slider says its value, and the scene what comes of it.
-  const output = make("output", { for: id, "aria-live": "off" });
+  const output = make("output", { for: id, "aria-live": "off", "aria-hidden": "true" });
   let finger = null; // where a touch began, and the value then, until it means the slider
   const input = make("input", {
     id,
@@ -101,7 +101,7 @@ export function toggle({ label, onInput }) {
 
 /**
  * @param {any} text or nodes
- * @param {() => void} act
+ * @param {(event: MouseEvent) => void} act
  * @param {ButtonOptions} options
  */
 export function button(text, act, { primary = false, label, title } = {}) {
@@ -110,7 +110,7 @@ export function button(text, act, { primary = false, label, title } = {}) {
     class: primary ? "ab-button ab-primary" : "ab-button",
     "aria-label": label,
     title: title ?? label,
-    onclick: () => node.getAttribute("aria-disabled") === "true" || act(),
+    onclick: (event) => node.getAttribute("aria-disabled") === "true" || act(event),
   }, text);
   return {
     node,

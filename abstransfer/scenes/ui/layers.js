@@ -129,6 +129,19 @@ export function addLayers(view) {
     );
   };
 
+  // A dot for each number above 0, the larger, the more.
+  const dots = perCell(
+    "dots",
+    "below",
+    "circle",
+    (cell) => {
+      const { x, y } = centre(cell);
+      return { cx: x + 0.32 * CELL, cy: y + 0.32 * CELL, class: "ab-dot" };
+    },
+    (node, n) => node.setAttribute("r", Math.min(0.8 + Math.log2(n) / 3, 3)),
+  );
+  view.dots = (numbers) => dots(numbers && numbers.map((n) => n || null));
+
   view.lit = (cells) => {
     const chosen = new Set(cells ?? []);
     view.cells.forEach((tile, cell) => tile.classList.toggle("ab-lit", chosen.has(cell)));

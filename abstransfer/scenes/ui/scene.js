@@ -110,7 +110,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
   const store = address.makeState(spec, options);
   const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
   const controls = []; // { name, show(value, bounds) }
-  const leaving = [];
+  const [leaving, resetting] = [[], []];
   let odd = ""; // what the address asks for in vain
   const changed = new Set(Object.keys(spec.state));
   let [paint, frame, timer, job, isLeft] = [null, null, null, null, false];
@@ -185,14 +185,16 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     add: (...nodes) => body.append(...nodes.flat()),
     row: (...nodes) => make("div", { class: "ab-row" }, ...nodes),
     onLeave: (f) => leaving.push(f),
+    onReset: (f) => resetting.push(f),
     control: (of, show) => controls.push({ name: of, show }),
   };
   function reset() {
     stop();
+    resetting.forEach((f) => f());
     dropBets(me);
     sorry = "";
-    redraw();
-    note(store.set(store.start), true);
+    store.reset();
+    note(Object.keys(spec.state), true); // all is drawn anew, as at the start
     me.say("The scene is as it was at the start.");
   }
   // What the address asks for: also that there is nothing any more, after a step back.
@@ -206,6 +208,10 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     }
     return found;
   }
+  function follow() {
+    me.open(); // the reader asked for it
+    fromUrl();
+  }
   const linkable = (values) =>
     Object.fromEntries(Object.entries(values).filter(([of]) => !spec.local?.includes(of)));
   function leave() {
@@ -215,7 +221,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     leaving.forEach((f) => f());
     clearTimeout(timer);
     cancelAnimationFrame(frame);
-    removeEventListener("hashchange", fromUrl);
+    removeEventListener("hashchange", follow);
     removeEventListener("pagehide", stop);
     removeEventListener("pageshow", redraw);
     shell.remove();
@@ -232,13 +238,12 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     linked = sorry ? null : fromUrl();
     element.append(shell);
     drawNow();
-    me.open();
   } catch (error) {
     leave();
     throw error;
   }
   element.classList.add("ab-live"); // hides the still picture, but in print
-  addEventListener("hashchange", fromUrl);
+  addEventListener("hashchange", follow);
   addEventListener("pagehide", stop);
   addEventListener("pageshow", redraw);
   if (linked) element.scrollIntoView();

@@ -107,9 +107,16 @@ export function makeState(spec, options) {
     limits[name] = bounds;
     return set({ [name]: accepted(spec.fields[name], bounds, values[name]).value ?? bounds[0] });
   }
+  // As it was at the start; the bounds go before, which a smaller map has narrowed.
+  function reset() {
+    for (const [name, bounds] of Object.entries(spec.limits)) {
+      if (bounds) limits[name] = bounds;
+    }
+    set(start);
+  }
   set(options ?? {});
   const start = { ...values };
-  return { values, start, limits, problems, set, limit };
+  return { values, start, limits, problems, set, limit, reset };
 }
 
 // ---- the URL: maps that come along go by their names

@@ -17,7 +17,7 @@ const PAUSE = 1000; // milliseconds between two sentences
  * @param {HTMLElement[]} below buttons at its foot
  */
 export function shell(scene, body, below) {
-  const live = make("p", { class: "ab-hidden", role: "status", "aria-live": "polite" });
+  const live = make("p", { class: "ab-hidden ab-said", role: "status", "aria-live": "polite" });
   const closing = make("p", { class: "ab-closing", hidden: true });
   const table = make("div", {
     class: "ab-scroll",
@@ -43,7 +43,7 @@ export function shell(scene, body, below) {
     next = null;
   }
   // One sentence a second at most; the last one wins.
-  // What is there as the page opens is read in its place.
+  // What comes by itself, before the reader has come, is read in its place.
   let isOpen = false;
   scene.open = () => (isOpen = true);
   scene.say = (sentence) => {
@@ -98,7 +98,7 @@ export function shell(scene, body, below) {
   };
 
   const foot = make("div", { class: "ab-row ab-foot" }, below);
-  return make(
+  const node = make(
     "div",
     { class: "ab-scene", role: "region", "aria-label": `Scene: ${scene.spec.title}` },
     warning,
@@ -108,12 +108,49 @@ export function shell(scene, body, below) {
     twin,
     live,
   );
+  // On a phone what is said is seen as well, at the rim, while the scene is handled: a
+  // control and what it moves may be a screen apart.
+  const handle = ({ target }) => {
+    const isHere = node.contains(target);
+    node.classList.toggle("ab-handled", isHere);
+    if (isHere) scene.open();
+  };
+  for (const kind of ["pointerdown", "focusin", "input"]) {
+    document.addEventListener(kind, handle);
+    scene.onLeave(() => document.removeEventListener(kind, handle));
+  }
+  return node;
 }
 
 // ---- bets: kept in this tab, told to nobody
 
 const key = (scene, name) => `abstransfer ${location.pathname} ${scene.id}.${name}`;
 const SKIP = "I do not bet: show me";
+
+// A bet that is placed is one line: the picture that it is about comes nearer.  Who
+// chooses by arrow keys has placed it on leaving.
+function folded(scene, choice, options) {
+  let isOpen = false;
+  const words = make("span", {});
+  const change = scene.button("Change", () => {
+    isOpen = true;
+    scene.redraw();
+  });
+  const line = make("p", {}, words, " ", change);
+  choice.addEventListener("focusout", ({ relatedTarget }) => {
+    if (choice.contains(relatedTarget)) return;
+    isOpen = false;
+    scene.redraw();
+  });
+  choice.addEventListener("click", ({ detail }) => detail && (isOpen = false));
+  return [line, (value) => {
+    const isFolded = Boolean(value) && !isOpen && !choice.querySelector(":focus-visible");
+    const wasFolded = choice.hidden;
+    [choice.hidden, line.hidden] = [isFolded, !isFolded];
+    words.textContent = options[value] ? `You bet on “${options[value]}”.` : "You did not bet.";
+    if (wasFolded && isOpen) choice.querySelector(":checked").focus();
+  }];
+}
 
 /** @param {Scene} scene */
 export function bindBets(scene) {
@@ -127,16 +164,21 @@ export function bindBets(scene) {
       return asked.node;
     }
     const choice = scene.choice(name, { label: question, options: { ...options, skip: SKIP } });
-    choice.classList.add("ab-bet");
     const before = kept(key(scene, name));
     if (before && !scene.state[name]) scene.set({ [name]: before });
-    scene.control(name, (value) => kept(key(scene, name), value));
-    return choice;
+    const [placed, show] = folded(scene, choice, options);
+    scene.control(name, (value) => {
+      kept(key(scene, name), value);
+      show(value);
+    });
+    return make("div", { class: "ab-bet" }, choice, placed);
   };
-  scene.betResult = (name, truth) => {
+  // What became of a bet; `other` says what it was about, where that is not shown now.
+  scene.betResult = (name, truth, other = "") => {
     const bet = scene.state[name];
     if (!bet || bet === "skip") return "";
     const text = (option) => bets[name][option] ?? option;
+    if (other) return `Your bet, “${text(bet)}”, is about ${other}.`;
     if (bet === truth) return `You bet on “${text(bet)}”: right.`;
     return `You bet on “${text(bet)}”; it was “${text(truth)}”.`;
   };

@@ -104,6 +104,7 @@ export function timeline(scene, name, options = {}) {
     next?.enable(moments.find(t) !== null);
   });
   scene.onLeave(pause);
+  scene.onReset(pause);
   showPlay();
   return make(
     "div",

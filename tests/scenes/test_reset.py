@@ -1,0 +1,78 @@
+"""Reset gives the start back, whatever the reader did before."""
+
+import pytest
+from scene_tab import bare
+
+from abstransfer.scenes import KINDS
+
+SHORT = {"steps": 600_000}
+STATES = {"dial": SHORT, "race": SHORT, "tau": SHORT, "project": {"lives": 1}}
+# Use each control in turn, as a reader would, then press Reset; return what is not then
+# as it was at the start: [control, what was, what is].
+TRY = """async (patience) => {
+    const scene = document.querySelector(".abstransfer-scene");
+    const pictures = async (n) => {
+        while (n--) await new Promise(requestAnimationFrame);
+    };
+    const isSeen = (each) => each.getClientRects().length > 0;
+    const nameOf = (each) => each.getAttribute("aria-label") ??
+        each.labels?.[0]?.textContent ?? each.textContent;
+    const controls = () => [...scene.querySelectorAll("button, input, select")]
+        .filter(isSeen).filter((each) => each.closest(".ab-foot") === null);
+    const reset = () => [...scene.querySelectorAll(".ab-foot button")]
+        .find((each) => each.textContent === "Reset").click();
+    const look = () => {
+        const body = scene.querySelector(".ab-body").cloneNode(true);
+        body.querySelectorAll("svg, option").forEach((each) => each.remove());
+        const isUndo = (each) => /^(Undo|Redo)$/.test(each.textContent); // of a reset, too
+        const all = controls().filter((each) => !isUndo(each));
+        return JSON.stringify([body.textContent, all.map((each) => [
+            nameOf(each), each.type, each.value, each.checked, each.min, each.max,
+            each.getAttribute("aria-disabled")])], null, 1);
+    };
+    const rests = async () => {
+        let [before, same] = [look(), 0];
+        while (same < 20) {
+            await pictures(1);
+            const now = look();
+            same = now === before && !/…|Learning|Grad climbs/.test(now) ? same + 1 : 0;
+            before = now;
+        }
+        return before;
+    };
+    const start = await rests();
+    const wrong = [];
+    for (let i = 0; i < controls().length; i++) {
+        const control = controls()[i];
+        const name = nameOf(control);
+        if (/^(Copy|Save)/.test(name)) continue;
+        if (control.type === "range") {
+            const { min, max, value } = control;
+            control.value = value === max ? min : max;
+            control.dispatchEvent(new Event("input"));
+        } else if (control.tagName === "SELECT") continue;
+        else if (control.type === "number") control.value = control.min;
+        else control.click();
+        await pictures(3);
+        reset();
+        const end = Date.now() + patience;
+        while (look() !== start && Date.now() < end) await pictures(1);
+        const now = look();
+        if (now === start) continue;
+        const lines = start.split("\\n");
+        wrong.push([name, now.split("\\n").filter((line, i) => line !== lines[i])]);
+        break; // what follows would be wrong, too
+    }
+    return [controls().length, wrong];
+}"""
+
+
+@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.timeout(900)
+def test_reset_gives_the_start_back_after_every_control(open_scene, name):
+    tab = open_scene(bare(KINDS[name], **STATES.get(name, {})))
+    n, wrong = tab.page.evaluate(TRY, 20_000)
+
+    assert n >= 2
+    assert wrong == []
+    assert tab.problems == []
