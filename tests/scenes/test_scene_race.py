@@ -228,14 +228,47 @@ def test_ends_of_sliders_and_quick_changes(show, race):
     assert scene.problems == []
 
 
+# Two presses of one button, some pictures apart.
+STOPPED = """async (button) => {
+    button.click();
+    for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame);
+    button.click();
+}"""
+
+
+def test_a_stopped_race_goes_on_to_the_same_end(show, race, runs):
+    scene = show(race).bet("Prob")
+    scene.button("million steps").evaluate(STOPPED)
+    scene.settle()
+    again = scene.root.locator(".ab-primary:visible", has_text="Go on").or_(
+        scene.button("million steps")
+    )
+    if again.count():  # a short race may have been over
+        again.first.click()
+    scene.wait("They reached")
+
+    for name, run in runs.items():
+        assert scene.column(NAMES[name]) == run.goals.tolist()
+
+
+def test_a_double_click_begins_a_race_and_does_not_stop_it(show, race):
+    scene = show(race).bet("Prob")
+    scene.button("million steps").dblclick()
+
+    assert "They reached" in scene.wait("They reached").closing
+
+
 def test_leaving_while_it_learns_ends_the_workers(show):
     scene = show(Race(), "#race.full=true")
     scene.page.wait_for_function("document.querySelector('.ab-chart .ab-line')")
     assert len(scene.page.workers) == 4
-    scene.button("Stop").click()
+    scene.bet("ND").button("Stop").click()
     scene.settle()
     assert scene.is_idle()
-    scene.bet("ND").button("million steps").click()
+    assert scene.root.locator(".ab-line").count() == 4, "what was learned stays"
+    assert scene.root.get_by_text("Stopped after").is_visible()
+    scene.button("Go on").click()
+    scene.wait_for_worker()
     scene.page.goto("about:blank")
 
     assert scene.is_idle()

@@ -26,6 +26,7 @@ defineScene("race", {
     let robots = []; // { arm, name, look, first, steps, ends, goals, path }
     let events = new Map(); // step -> sentence
     let parting = null; // { t, s }
+    let another = ""; // said of a race whose curves went with its settings
 
     const view = building({ label: "" });
     view.svg.style.maxHeight = "75vh"; // all in sight: nothing to scroll
@@ -37,14 +38,21 @@ defineScene("race", {
       moments: { label: "Next event", find: nextEvent },
     });
     timeline.querySelector("input").setAttribute("list", ticks.id);
-    const go = button("", () => scene.set({ full: !scene.state.full }), { primary: true });
+    // The second click of two would stop what the first began.
+    const go = button("", ({ detail }) => detail > 1 || scene.set({ full: !scene.state.full }), {
+      primary: true,
+    });
+    const clear = button("Clear", () => {
+      forget();
+      scene.set({ full: false, goals: {} });
+    });
     const progress = make("p", {});
     const chart = runs.chart(scene, 300);
     const totals = barChart({ label: "Goals reached in all", format: count });
     const full = make(
       "div",
       { class: "ab-scene" },
-      scene.row(go.node, progress),
+      scene.row(go.node, clear.node, progress),
       chart.node,
       totals.node,
     );
@@ -145,13 +153,14 @@ defineScene("race", {
 
     // ---- all steps
 
-    const done = () => Math.min(...robots.map(({ goals }) => goals.length)); // windows
-    function clear() {
+    const done = () => robots.length && Math.min(...robots.map(({ goals }) => goals.length)); // windows
+    function forget() {
       scene.stop();
       for (const robot of robots) robot.goals = [];
+      scene.redraw();
     }
+    // Goes on where it was stopped: what is known stays until it is learned again.
     function learn({ luck, steps }) {
-      clear();
       scene.learn(robots.map(({ arm }) => world.parts(arm, luck, steps)), {
         nWorkers: robots.length, // side by side, on however few cores
         onWindow: (job, i, goals) => (robots[job].goals[i] = goals),
@@ -164,11 +173,15 @@ defineScene("race", {
     function showFull({ bet, full: isOn, steps }) {
       const n = done();
       const isDone = n === WINDOWS;
-      full.hidden = !bet && !isOn;
-      go.set(!isOn ? `All ${all()}` : isDone ? "Clear" : "Stop");
-      progress.textContent = isOn && !isDone
-        ? `${count(n * runs.windowOf(steps))} of ${all()}`
-        : "";
+      full.hidden = !bet && !isOn && !n;
+      go.node.hidden = isDone;
+      clear.node.hidden = !n || scene.isLearning;
+      go.set(isOn ? "Stop" : n ? "Go on" : `All ${all()}`);
+      progress.textContent = isDone
+        ? ""
+        : n || isOn
+        ? `${isOn ? "" : "Stopped after "}${count(n * runs.windowOf(steps))} of ${all()}`
+        : another;
       // A fair race shows all up to the same step; where motion is unwelcome, its end.
       const curves = robots.map(({ name, look, goals }) => ({
         name,
@@ -207,10 +220,11 @@ defineScene("race", {
     return function draw(state, changed) {
       if (PROBLEM.some((name) => changed.has(name))) {
         scene.stop();
+        another = done() ? "Another race now: its steps are not learned yet." : "";
         begin(state);
         if (!changed.has("full")) scene.set({ full: false, goals: {} });
       }
-      if (!state.full) clear();
+      if (!state.full) scene.stop();
       else if (done() < WINDOWS && !scene.isLearning) learn(state);
       show(state);
       showFull(state);
