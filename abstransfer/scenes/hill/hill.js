@@ -10,6 +10,7 @@ import * as land from "./land.js";
 const [LEFT, TOP, SIDE] = [40, 14, 280]; // of the drawing
 const DASHES = ["5 3", "1.5 3", "8 3 1.5 3", "3 6"];
 const KEPT = 6; // earlier climbs
+const RIM = 0.02; // beside the land that still means its border
 const STEP = 0.05; // of the cross, by key
 const MOVES = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 const ENDS = { same: "always on the same", other: "not always" };
@@ -130,10 +131,11 @@ defineScene("hill", {
     board.addEventListener("click", (event) => {
       const { left, width, top: upper } = svg.getBoundingClientRect();
       const unit = 400 / width;
-      drop(
-        ((event.clientX - left) * unit - LEFT) / SIDE,
-        1 - ((event.clientY - upper) * unit - TOP) / SIDE,
-      );
+      const p = ((event.clientX - left) * unit - LEFT) / SIDE;
+      const q = 1 - ((event.clientY - upper) * unit - TOP) / SIDE;
+      const isOutside = Math.max(Math.abs(p - 0.5), Math.abs(q - 0.5)) > 0.5 + RIM;
+      if (isOutside) return; // an axis, or the scale
+      drop(p, q);
       cross = null;
     });
     board.addEventListener("keydown", (event) => {
@@ -178,7 +180,12 @@ defineScene("hill", {
       make(
         "div",
         { class: "ab-columns" },
-        board,
+        make(
+          "div",
+          { class: "ab-body" },
+          board,
+          scene.timeline("t", { label: "Iteration", speeds: [1, 4, 15] }),
+        ),
         make(
           "div",
           { class: "ab-body" },
@@ -191,7 +198,6 @@ defineScene("hill", {
           scene.row(clear.node),
         ),
       ),
-      scene.timeline("t", { label: "Iteration", speeds: [1, 4, 15] }),
     );
 
     function tell(first, here) {
@@ -208,9 +214,7 @@ defineScene("hill", {
       }. The rule goes towards a corner.`;
     }
     function closing() {
-      if (!state.bet || state.t < land.LAST || timer) return "";
-      const last = way().at(-1);
-      const settled = way().findLastIndex(({ value }) => Math.abs(value - last.value) > 0.1) + 1;
+      if (!state.bet || timer) return "";
       const nLeft = ends.filter(({ isLeft }) => isLeft).length;
       const mine = [...earlier(), [state.p, state.q]].map(([p, q]) => top(wayOf(p, q).at(-1)));
       const own = mine.length > 1
@@ -218,17 +222,20 @@ defineScene("hill", {
           mine.filter((name) => name === mine.at(-1)).length
         } end at ${mine.at(-1)}.`
         : "";
+      const reply = scene.betResult("bet", nLeft % ends.length ? "other" : "same");
+      const sides = `Of ${ends.length} starts, ${nLeft} end at left and up, ${
+        ends.length - nLeft
+      } at right and down.`;
+      if (state.t < land.LAST) return `${reply} ${sides}`.trim();
+      const last = way().at(-1);
+      const settled = way().findLastIndex(({ value }) => Math.abs(value - last.value) > 0.1) + 1;
       return (
-        `${scene.betResult("bet", nLeft % ends.length ? "other" : "same")} From p = ${
-          number(state.p, 2)
-        }, q = ${number(state.q, 2)} the climb ends ` +
+        `${reply} From p = ${number(state.p, 2)}, q = ${number(state.q, 2)} the climb ends ` +
         `at ${top(last)}: worth ${
           number(last.value, 2)
         } after ${land.LAST} iterations, within a tenth of that from iteration ${settled} on; ` +
         `the best advice is worth ${number(Math.max(...land.heights(state.start)), 2)}. ` +
-        `Of ${ends.length} starts, ${nLeft} end at left and up, ${
-          ends.length - nLeft
-        } at right and down.${own}`
+        `${sides}${own}`
       ).trim();
     }
     function twin() {
