@@ -32,6 +32,7 @@ defineScene("microscope", {
     const here = make("p", {});
     const equation = formula("Eq. 1 with the numbers of this step");
     const words = make("p", {});
+    const been = make("p", {});
     const buildings = scene.choice("map", {
       label: "Building",
       options: { [scene.spec.state.map]: "two rooms", [mapTexts.source]: "the source" },
@@ -44,13 +45,23 @@ defineScene("microscope", {
           options: Object.fromEntries(Object.entries(STARTS).map(([k, { text }]) => [k, text])),
         }),
       ),
-      make("div", { class: "ab-columns" }, view.node, make("div", {}, here, bars.node)),
+      make(
+        "div",
+        { class: "ab-columns" },
+        make(
+          "div",
+          { class: "ab-body" },
+          view.node,
+          scene.timeline("t", {
+            label: "Step",
+            moments: { label: "Next change", find: (t) => nextChange(t) },
+          }),
+          been,
+        ),
+        make("div", {}, here, bars.node),
+      ),
       equation.node,
       words,
-      scene.timeline("t", {
-        label: "Step",
-        moments: { label: "Next change", find: (t) => nextChange(t) },
-      }),
       scene.bet("bet", {
         question:
           `Bet first: which start makes the robot visit most cells in ${BET} steps, on average?`,
@@ -142,6 +153,10 @@ defineScene("microscope", {
       view.texts(Array.from(values, (v) => (Number.isFinite(v) && v !== run.q0 ? short(v) : null)));
       view.lit(step ? [s] : []);
       view.robots([{ cell: step ? step.next : s, arm: "none", name: "the robot" }]);
+      const visits = visited(run, state.t);
+      view.dots(Array.from({ length: map.nCells }, (_, cell) => visits.get(cell) ?? 0));
+      been.textContent =
+        `Specks: where the robot was, the larger the more often. So far ${visits.size} of ${map.nCells} cells.`;
       view.rename();
       const available = run.tasks.nWays.subarray(A * s, A * s + A);
       bars.set(

@@ -37,6 +37,13 @@ export function given(map, { start, task, trace }) {
   return { tasks, first: trace[0][0], q0, steps };
 }
 
-// Cells that a run has stood on after n steps.
-export const visited = ({ first, steps }, n) =>
-  new Set(steps.slice(0, n).flatMap(({ s, next }) => [s, next]).concat(n ? [] : [first]));
+// Cells that a run has stood on in n steps, and in how many of them.
+export function visited({ first, steps }, n) {
+  const visits = new Map(n ? [] : [[first, 1]]);
+  for (const { s, next } of steps.slice(0, n)) {
+    for (const cell of s === next ? [s] : [s, next]) {
+      visits.set(cell, (visits.get(cell) ?? 0) + 1);
+    }
+  }
+  return visits;
+}
