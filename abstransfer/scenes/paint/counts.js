@@ -58,6 +58,17 @@ export function counts(home, away, mask) {
   };
 }
 
+// Whether each state of a task (of a building that was counted, solved) does badly under
+// the one action that suits most of those that look like it.
+export function wrong(tasks, { suits }, mask) {
+  const sums = merge(suits, mask, A);
+  const optimal = optimalActions(tasks, optimalValues(tasks));
+  return Array.from(tasks.rho, (z, s) => {
+    const row = sums.subarray(A * (z & mask), A * (z & mask) + A);
+    return !tasks.terminal[s] && !optimal[A * s + row.indexOf(Math.max(...row))];
+  });
+}
+
 // A number for each abstract state, the commonest of the small building first: the
 // same in both buildings, wherever the goal is.
 export function looks(home, away, mask) {

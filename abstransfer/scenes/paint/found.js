@@ -22,7 +22,7 @@ const NAMES = {
   target: "abstract states in the large one",
   unseen: "of the large one's states look new",
   torn: "of the small one's states: in a conflict (no action suits all that look so)",
-  right: "of them: one action for each abstract state is right",
+  right: "of the small one's states: one action for each abstract state is right",
 };
 const NUMBERS = ["source", "target"]; // the others are shares
 
@@ -84,9 +84,13 @@ export function findings(scene) {
       `${percent(counts.right, 0)}. ${before}`
     ).trim();
   }
+  const short = ({ source, unseen, right }) =>
+    `${source} abstract states; ${percent(unseen)} look new; one action is right in ${
+      percent(right)
+    }.`;
   const shown = (key, of) => (!of ? "–" : NUMBERS.includes(key) ? of[key] : percent(of[key], 4));
   const rows = (counts, full) =>
     Object.keys(NAMES).map((key) => [NAMES[key], shown(key, counts), shown(key, counts && full)]);
 
-  return { node, bets, show, closing, rows };
+  return { node, bets, show, closing, short, rows };
 }

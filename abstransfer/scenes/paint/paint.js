@@ -3,7 +3,7 @@
 
 import { parseMap } from "../engine/maps.js";
 import { FEATURES, navigationTasks } from "../engine/navigation.js";
-import { ALL, counts, looks, tally } from "./counts.js";
+import { ALL, counts, looks, tally, wrong } from "./counts.js";
 import { findings } from "./found.js";
 import { building } from "../ui/building.js";
 import { button, toggle } from "../ui/controls.js";
@@ -17,7 +17,7 @@ const SIDES = [["task", "source", "small"], ["away", "map", "large"]];
 defineScene("paint", {
   title: "Paint by abstract state",
   build(scene) {
-    let counted = {}; // { home, away, solved } as far as they are counted
+    let counted = {}; // { home, away } as far as they are counted
     let [full, seen] = [null, null]; // counts with all features; looks with those kept
     let pointed = null; // the abstract state of the cell under the pointer
     let timer = null;
@@ -59,13 +59,17 @@ defineScene("paint", {
       button(text, () => scene.set({ features })).node
     );
     const found = findings(scene);
+    const torn = scene.toggle("torn", {
+      label: "× where the best single action for what the robot sees is wrong",
+    });
     scene.add(
       make("div", { class: "ab-columns ab-pair" }, sides.map(({ node }) => node)),
+      torn,
       words,
       make(
         "fieldset",
         { class: "ab-choice" },
-        make("legend", {}, "What the robot sees there. Tick off what it shall forget:"),
+        make("legend", {}, "What the robot sees there. Untick what it shall forget:"),
         make("div", { class: "ab-questions" }, questions.map(({ node }) => node)),
       ),
       scene.row(...presets),
@@ -143,6 +147,11 @@ defineScene("paint", {
         side.view.classes(looks.map((z) => (isPlain(z) ? -1 : seen.look[z])));
         side.view.texts(looks.map((z) => (z >= 0 && hasBet(state) && isNewLook(z) ? "?" : null)));
       }
+      torn.hidden = !hasBet(state) || !counted.home?.suits;
+      if (!torn.hidden && state.torn) {
+        const isWrong = wrong(home.tasks, counted.home, state.features);
+        home.view.texts(isWrong.map((is) => (is ? "×" : null)));
+      }
     }
 
     function light(state) {
@@ -187,8 +196,9 @@ defineScene("paint", {
       if (changed.size) show(state);
       light(state);
       if (has("task", "away", "features")) sides.forEach(({ view }) => view.rename());
-      if (has("task", "away", "features", "z")) scene.say(words.textContent);
       const counts = now(state);
+      if (has("features") && counts) scene.say(found.short(counts));
+      else if (has("task", "away", "features", "z")) scene.say(words.textContent);
       found.show(state, counts, full);
       scene.twin(() => twin(counts));
       scene.close(found.closing(state, counts, full));

@@ -50,6 +50,8 @@ class Paint(Scene):
         The abstract state whose cells are lit, over all 11 features; -1 for none.
     features : sequence of str
         Names of the features that are kept; the others are forgotten.
+    torn : bool
+        Whether cells are marked where the best single action is wrong.
 
     Examples
     --------
@@ -70,6 +72,7 @@ class Paint(Scene):
     away = traitlets.CInt(11, min=0).tag(sync=True)
     z = traitlets.CInt(530, min=-1, max=ALL).tag(sync=True)
     features = FeaturesTrait()
+    torn = traitlets.Bool(False).tag(sync=True)
     bet = traitlets.Unicode("").tag(sync=True, local=True)
     bet_new = traitlets.Unicode("").tag(sync=True, local=True)
 
