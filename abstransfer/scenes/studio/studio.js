@@ -7,8 +7,9 @@ import { optimalValues } from "../engine/solvers.js";
 import { PAPER, ROWS } from "../engine/paper.js";
 import { makeEditor } from "../parts/editor.js";
 import { follow, solving } from "./walk.js";
-import { likeness, overlay, seenIn, stepText } from "./words.js";
+import { likeness, nameOf, overlay, seenIn, stepText } from "./words.js";
 import { barChart } from "../ui/bars.js";
+import { button } from "../ui/controls.js";
 import { armStyle, count, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 
@@ -58,7 +59,7 @@ defineScene("studio", {
         seen,
         make(
           "table",
-          {},
+          { "aria-label": "What can come of each action" },
           make("thead", {}, make("tr", {}, head.map((text) => make("th", { scope: "col" }, text)))),
           lines,
         ),
@@ -118,9 +119,28 @@ defineScene("studio", {
         pointed ?? me.walked.cell,
       );
       seen.textContent = text;
+      // What the robot could say where it stands is said by a press.
+      const isHere = (pointed ?? me.walked.cell) === me.walked.cell;
+      const say = (a) => () => {
+        scene.set({ walk: scene.state.walk + a });
+        scene.redraw();
+      };
+      const at = lines.contains(document.activeElement) && document.activeElement.textContent;
+      const told = new Set();
+      const word = (a) => {
+        if (a < 0) return "any other";
+        if (!isHere || told.has(a)) return nameOf(a);
+        told.add(a);
+        return button(nameOf(a), say(a)).node;
+      };
       lines.replaceChildren(
-        ...all.map((line) => make("tr", {}, line.map((text) => make("td", {}, text)))),
+        ...all.map(([a, ...line]) =>
+          make("tr", {}, [word(a), ...line].map((text) => make("td", {}, text)))
+        ),
       );
+      // The keyboard stays on the action, if it is there still.
+      const buttons = [...lines.querySelectorAll("button")];
+      if (at) (buttons.find((each) => each.textContent === at) ?? buttons[0])?.focus();
     }
 
     // ---- what lies over the cells, and below the building

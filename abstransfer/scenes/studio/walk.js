@@ -11,20 +11,28 @@ import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
 const LUCK = 1; // seed of the robot's slips
 const WORD = 4294967296;
 
-// Walk: letters N, E, S, W from a cell.  Return { cell, steps, total, isOver }, each
-// step { cell, d, a, next, r, slips }; `a` is the label of that edge, -1 a wall.
+// Walk from a cell: a letter N, E, S, W steers, the number of a label is what a robot can
+// say; chance takes one of the ways that have it.  Return { cell, steps, total, isOver },
+// each step { cell, d, a, next, r, slips, nWays, isSteered }; `a` is the label of that
+// edge, -1 a wall, and `nWays` how many have it.
 export function follow(tasks, start, walk) {
   const luck = seedState(LUCK);
   const steps = [];
   let [cell, total, weight] = [start, 0, 1];
   for (const letter of walk) {
-    const d = DIRECTIONS.indexOf(letter);
-    if (d < 0 || tasks.terminal[cell]) continue;
-    const a = tasks.labels[4 * cell + d];
+    const isSteered = DIRECTIONS.includes(letter);
+    if (tasks.terminal[cell] || !(isSteered || letter in LABELS)) continue;
+    const labels = [...tasks.labels.subarray(4 * cell, 4 * cell + 4)];
+    const ways = [0, 1, 2, 3].filter((d) => labels[d] === Number(letter));
+    const d = isSteered
+      ? DIRECTIONS.indexOf(letter)
+      : ways[Math.floor((nextWord(luck) / WORD) * ways.length)] ?? 0;
+    const a = isSteered ? labels[d] : ways.length ? labels[d] : -1;
+    const nWays = labels.filter((label) => label === a).length;
     const slips = nextWord(luck) / WORD >= tasks.success;
     const next = a < 0 || slips ? cell : tasks.neighbors[4 * cell + d];
     const r = tasks.reward[next];
-    steps.push({ cell, d, a, next, r, slips: slips && a >= 0 });
+    steps.push({ cell, d, a, next, r, slips: slips && a >= 0, nWays, isSteered });
     total += weight * tasks.reward[cell]; // a state pays on its own account, as in its value
     weight *= tasks.gamma;
     cell = next;

@@ -33,7 +33,8 @@ class Studio(DrawnScene):
     start : int
         Cell that the robot starts in.
     walk : str
-        Where it was sent: letters N, E, S, W.  One move in ten fails.
+        Where it was sent: letters N, E, S, W steer it; the number of an action is what
+        a robot can say, and chance takes a way.  One move in ten fails.
 
     Examples
     --------

@@ -8,20 +8,24 @@ import { outcomes } from "./walk.js";
 import { SIDES } from "../parts/drawing.js";
 import { count, number, place } from "../ui/dom.js";
 
-const nameOf = (a) => LABELS[a].replaceAll("_", " ");
+export const nameOf = (a) => LABELS[a].replaceAll("_", " ");
 const short = ({ width }, cell) => `(${Math.floor(cell / width) + 1}, ${(cell % width) + 1})`;
 
 // The last step of a walk.
 export function stepText(map, walked) {
   if (!walked) return "";
   const { steps, total } = walked;
-  if (!steps.length) return "The robot waits: arrow keys, or a click on the next cell.";
-  const { cell, d, a, next, r, slips } = steps.at(-1);
+  if (!steps.length) return "The robot waits: press an action below, or steer by a click.";
+  const { cell, d, a, next, r, slips, nWays, isSteered } = steps.at(-1);
   const how = slips
     ? " The move failed: one in ten does."
     : a < 0
-    ? ` A wall to the ${SIDES[d]}.`
-    : "";
+    ? isSteered ? ` A wall to the ${SIDES[d]}.` : " It finds nothing to go to here."
+    : nWays < 2
+    ? ""
+    : isSteered
+    ? ` You steered: a robot can only say “${nameOf(a)}”, which is true of ${nWays} ways here.`
+    : ` Chance took one of ${nWays} ways.`;
   return (
     `Step ${steps.length}: (s, a, s′, r) = (${short(map, cell)}, ${a < 0 ? "–" : nameOf(a)}, ` +
     `${short(map, next)}, ${number(r, 0)}).${how} Return so far ${number(total, 2)}.`
@@ -36,14 +40,14 @@ export function seenIn(map, tasks, task, cell) {
   if (tasks.terminal[cell]) return { text: `${start}The goal: an episode ends here.`, rows: [] };
   const seen = describe(tasks.rho[cell]).replaceAll("_", " ").replaceAll("^", "∧");
   const rows = outcomes(tasks, cell).map(({ a, next, chance, r }) => [
-    nameOf(a),
+    a,
     next === cell ? "here" : short(map, next),
     number(chance, 2),
     number(r, 0),
   ]);
   return {
     text: `${start}What the robot sees: ${seen}.`,
-    rows: [...rows, ["any other", "here", "1.00", "−1"]],
+    rows: [...rows, [-1, "here", "1.00", "−1"]],
   };
 }
 
