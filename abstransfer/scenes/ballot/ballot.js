@@ -21,6 +21,7 @@ defineScene("ballot", {
     let drives = {}; // by beta: what the advice is worth in both buildings
     let shown = null; // the task that is seen
     let timer = null;
+    let isAsked = false; // what another beta is worth, which may take a while
 
     const words = make("p", {});
     const steps = [["A box with more votes", -1], ["A box with fewer votes", 1]].map(([text, by]) =>
@@ -193,8 +194,11 @@ defineScene("ballot", {
       if (!timer && !isDone()) start(driveAll());
       showBox();
       const sentence = whole.show(state, drives, isDone());
-      if (changed.has("beta") && sentence) scene.say(sentence);
-      else if (changed.has("z") || changed.has("task")) scene.say(words.textContent);
+      isAsked ||= changed.has("beta");
+      if (isAsked && sentence && drives[state.beta]) {
+        isAsked = false;
+        scene.say(sentence);
+      } else if (changed.has("z") || changed.has("task")) scene.say(words.textContent);
       scene.twin(twin);
       scene.close(isDone() && whole.closing(drives));
     };

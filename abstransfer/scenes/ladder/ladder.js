@@ -9,6 +9,7 @@ import { evaluatePolicy, mean, optimalValues } from "../engine/solvers.js";
 import { PAPER, ROWS } from "../engine/paper.js";
 import { makeLadders } from "./rungs.js";
 import { makeEditor } from "../parts/editor.js";
+import { button } from "../ui/controls.js";
 import { armStyle, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 
@@ -20,6 +21,8 @@ const GAPS = { // up to this share of the best driver's cost
   half: [1, "half of its cost"],
   more: [Infinity, "more than all of it again"],
 };
+const SETTING = ["text", "target", "success", "actions", "near", "almost_near"];
+const LEVEL = 0.05; // values that differ by less are level
 const ORDERS = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]].map((order) =>
   order.map((i) => ADVICE[i])
 );
@@ -56,6 +59,11 @@ defineScene("ladder", {
 
     const me = makeEditor(scene, { label: "The source", begin });
     const ladders = makeLadders({ label: "Table 1 as two ladders", isCalm: () => scene.calm });
+    // Bets stay: they are about it.
+    const papers = button(
+      "The paper's setting",
+      () => scene.set(Object.fromEntries(SETTING.map((key) => [key, scene.spec.state[key]]))),
+    );
     const [legend, status] = [1, 2].map(() => make("p", {}));
     const steps = (n) => plural(n, "step");
     scene.add(
@@ -105,7 +113,10 @@ defineScene("ladder", {
         scene.slider("near", { label: "The goal is near up to", format: steps }),
         scene.slider("almost_near", { label: "The goal is almost near up to", format: steps }),
       ),
-      scene.choice("actions", { label: "What an action says", options: ACTIONS }),
+      scene.row(
+        scene.choice("actions", { label: "What an action says", options: ACTIONS }),
+        papers.node,
+      ),
     );
 
     // ---- solving, in slices: the rungs first, then Grad climbs
@@ -127,10 +138,7 @@ defineScene("ladder", {
 
     // ---- what is shown
 
-    const isPapers = () =>
-      ["text", "target", "success", "actions", "near", "almost_near"].every((key) =>
-        scene.state[key] === scene.spec.state[key]
-      );
+    const isPapers = () => SETTING.every((key) => scene.state[key] === scene.spec.state[key]);
     const isOpen = () => Boolean(scene.state.order && scene.state.gap);
     const isHidden = (side, row) => side === "target" && ADVICE.includes(row) && !isOpen();
     const valueOf = (side, row) => (isHidden(side, row) ? null : (found?.[side][row] ?? null));
@@ -139,6 +147,12 @@ defineScene("ladder", {
       valueOf(side, row) ??
         (me.problem || me.isLarge() || isHidden(side, row) ? null : before?.[side][row]);
     const ranked = (side, rows, of = found) => [...rows].sort((a, b) => of[side][b] - of[side][a]);
+    // "Grad, then Prob about level with ND", the best first.
+    const ordered = (of) =>
+      ranked("target", ADVICE, of).map((row, i, rows) => {
+        const isLevel = i && of.target[rows[i - 1]] - of.target[row] < LEVEL;
+        return `${i ? (isLevel ? " about level with " : ", then ") : ""}${name(row)}`;
+      }).join("");
     const priced = (side, rows) =>
       list(ranked(side, rows).map((row) => `${name(row)} ${number(found[side][row])}`));
 
@@ -165,6 +179,7 @@ defineScene("ladder", {
         ? "Grad is at the top of its climb."
         : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS} steps.`;
       me.show();
+      papers.enable(!isPapers());
     }
 
     // How much more than the best driver the best advice pays: 1 is as much again.
@@ -182,19 +197,20 @@ defineScene("ladder", {
       const now =
         `In the target: ${priced("target", ROWS)}. The best advice, ${name(order[0])}, pays ` +
         `${number(100 * gapOf(found), 0)} % more than the best driver.`;
-      if (found === first || isPapers()) {
+      if (isPapers()) {
         const gap = Object.keys(GAPS).find((key) => gapOf(found) <= GAPS[key][0]);
         return `${scene.betResult("order", order.join())} ${scene.betResult("gap", gap)} ${now}`
           .trim();
       }
-      if (!first) return now;
-      const old = ranked("target", ADVICE, first);
+      const bets = ["order", "gap"].map((bet) => scene.betResult(bet, "", "the paper's setting"));
+      if (!first) return `${now} ${bets.join(" ")}`.trim();
+      const [was, is] = [first, found].map(ordered);
       /** @type {[string, number][]} */
       const moves = ADVICE.map((row) => [row, found.target[row] - first.target[row]]);
       const [most, by] = moves.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
-      const turn = old.join() === order.join()
+      const turn = was === is
         ? "The order of the advice is as it was"
-        : `The order of the advice was ${list(old.map(name))}, and is ${list(order.map(name))}`;
+        : `The order of the advice was ${was}; it is ${is}`;
       return `${now} ${turn}; ${name(most)} moved most, by ${by > 0 ? "+" : ""}${number(by)}.`;
     }
     const printed = (x, digits) => (Number.isFinite(x) ? number(x, digits) : "–");
@@ -217,9 +233,7 @@ defineScene("ladder", {
       if (changed.has("text")) me.read();
       if (changed.has("target")) target = parseMap(state.target);
       if (
-        ["text", "target", "success", "actions", "near", "almost_near"].some((key) =>
-          changed.has(key)
-        )
+        SETTING.some((key) => changed.has(key))
       ) begin();
       show();
       scene.twin(twin);

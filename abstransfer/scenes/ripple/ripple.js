@@ -214,7 +214,12 @@ defineScene("ripple", {
       const cells = n * (map.nCells - 1);
       const truth = most < 43 ? "few" : most < 150 ? "some" : "many"; // half way, by factors
       const truthOfTies = ties < cells / 6 ? "few" : ties < cells / 2 ? "some" : "many";
-      const results = [scene.betResult("bet", truth), scene.betResult("ties", truthOfTies)];
+      const isAsked = ["map", "success"].every((name) => state[name] === scene.spec.state[name]);
+      const other = isAsked ? "" : "moves that succeed with probability 0.9, in the source";
+      const results = [
+        scene.betResult("bet", truth, other),
+        scene.betResult("ties", truthOfTies, other),
+      ];
       const all = n > 1
         ? ` In all ${n} tasks: at most ${farthest} steps, ${most} sweeps, ${count(ties)} of ${
           count(cells)
