@@ -24,7 +24,8 @@ TRY = """async (patience) => {
     const look = () => {
         const body = scene.querySelector(".ab-body").cloneNode(true);
         body.querySelectorAll("svg, option").forEach((each) => each.remove());
-        const isUndo = (each) => /^(Undo|Redo)$/.test(each.textContent); // of a reset, too
+        // A reset can be undone.
+        const isUndo = (each) => /^(Undo|Redo)$/.test(each.textContent);
         const all = controls().filter((each) => !isUndo(each));
         return JSON.stringify([body.textContent, all.map((each) => [
             nameOf(each), each.type, each.value, each.checked, each.min, each.max,
