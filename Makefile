@@ -1,6 +1,7 @@
 # make book   build the book into build/_build/html
 # make test   check everything: style, package, notebooks, built pages
 # make test-core  check the method only, in half a minute
+# make test-browsers  compare all scenes in Chromium, Firefox and WebKitGTK
 # make lab    open the notebooks in JupyterLab
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
@@ -22,12 +23,12 @@ PYTEST := $(BIN)/python -m pytest --quiet -n 3 --dist loadfile --no-loadscope-re
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core nightly lab pdf student bench clean env system
+.PHONY: book test test-core test-browsers nightly lab pdf student bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core nightly lab pdf student bench clean env system:
+book test test-core test-browsers nightly lab pdf student bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -73,6 +74,17 @@ test: .venv/.book system
 # For a patch to the method: maps to learning, with the examples of their docstrings.
 test-core: .venv/.book
 	$(PYTEST) -m "not slow" $(CORE)
+
+# `make test` does it too where both are installed (Debian: 110 MB).
+test-browsers: .venv/.book system
+	@if ! command -v firefox-esr >/dev/null || ! command -v WebKitWebDriver >/dev/null \
+	  || ! command -v Xvfb >/dev/null; then \
+	  as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
+	  $$as_root apt-get update -qq && \
+	  $$as_root apt-get install -y -qq --no-install-recommends \
+	    firefox-esr webkit2gtk-driver xvfb; fi
+	$(BIN)/python abstransfer/scenes/bundle.py
+	$(BIN)/python -m pytest --quiet tests/scenes/test_engines.py
 
 # What is killed, filled up, interrupted or asked for at random; one after another,
 # for an interrupt is meant for one.

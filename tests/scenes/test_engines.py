@@ -106,7 +106,7 @@ def test_states_are_of_all_scenes_and_each_comes_to_its_end(in_chromium):
 def test_an_engine_says_the_same(address, in_chromium, tmp_path, name):
     engine = ENGINES[name]
     if engine.missing():
-        pytest.skip(f"{name} is not installed; CONTRIBUTING.md says how")
+        pytest.skip(f"{name} is not installed; run: make test-browsers")
     browser = engine(tmp_path)
     try:
         browser.open(address)

@@ -374,6 +374,9 @@ def test_the_still_picture_is_for_print_and_without_script(at_scenes):
         "Q-learning, one step at a time"
         in page.locator("figcaption").first.inner_text()
     )
+    scene = page.locator(".abstransfer-scene").first
+    word = scene.evaluate("scene => getComputedStyle(scene, '::after').content")
+    assert "its script does not run here" in word
     page.close()
 
 
