@@ -162,3 +162,41 @@ def test_bars_are_seen_in_high_contrast(open_scene, name):
     ground = tab.root.evaluate("e => getComputedStyle(e).backgroundColor")
 
     assert bar.evaluate("e => getComputedStyle(e).backgroundColor") != ground
+
+
+def test_a_placed_bet_is_a_line_that_opens_again(open_scene):
+    tab = open_scene(bare(KINDS["hill"]))
+    tab.pick("Bet first", "not always")
+    assert not tab.root.get_by_role("group", name="Bet first").is_visible()
+    assert tab.root.get_by_text("You bet on \u201cnot always\u201d.").is_visible()
+    tab.click("Change").pick("Bet first", "always on the same")
+
+    line = tab.root.locator(".ab-bet > p")
+    assert line.inner_text().startswith("You bet on \u201calways on the same\u201d.")
+
+
+def test_who_bets_by_arrow_keys_has_bet_on_leaving(open_scene):
+    tab = open_scene(bare(KINDS["hill"]))
+    tab.root.get_by_role("radio", name="always on the same").focus()
+    tab.press("Space", "ArrowDown")
+    assert tab.root.get_by_role("radio", name="not always").is_checked()
+    tab.press("Tab")
+
+    assert tab.root.locator(".ab-bet > p").is_visible()
+    assert tab.page.evaluate("document.activeElement.closest('.ab-scene') !== null")
+
+
+def test_on_a_phone_what_is_said_is_seen_while_the_scene_is_handled(open_scene):
+    tab = open_scene(bare(KINDS["hill"]), width=400)
+    said = tab.root.locator(".ab-said")
+    tab.root.get_by_role("slider", name="p (left").focus()
+    tab.press("ArrowRight")
+    tab.page.wait_for_function(
+        "document.querySelector('.ab-said').textContent.includes('p = ')"
+    )
+    box = said.bounding_box()
+
+    assert box["width"] > 300
+    assert box["y"] + box["height"] <= 900, "at the rim of the window"
+    tab.page.locator("h1").click()
+    assert said.bounding_box()["width"] < 2

@@ -22,7 +22,7 @@ def hill(show):
 
 def to_the_end(scene, bet="not always"):
     scene.bet(bet).click("To the end")
-    return scene.wait("Of 100 starts", ".ab-closing")
+    return scene.wait("the climb ends", ".ab-closing")
 
 
 def drop(scene, p, q):
@@ -304,3 +304,23 @@ def test_a_wrong_value_is_refused():
         with pytest.raises(TraitError, match=f"'?{name}'? trait .*{wrong}"):
             Hill(**{name: wrong})
     assert repr(Hill(q=0.5, start="both")) == "Hill(q=0.5, start='both')"
+
+
+def test_a_click_beside_the_land_does_nothing(hill):
+    box = hill.root.locator(".ab-lowland").bounding_box()
+    y = box["y"] + box["height"]
+    for dx, dy in [(0.5, 20), (0.5, 32), (1.2, -40)]:  # ticks, an axis, the scale
+        hill.page.mouse.click(box["x"] + dx * box["width"], y + dy)
+    hill.settle()
+
+    assert not hill.button("Forget the earlier climbs").is_visible()
+    assert hill.slider("Start: q").input_value() == "0.3"
+    drop(hill, 0.5, -0.01)  # a little below: its border
+    assert hill.slider("Start: q").input_value() == "0"
+
+
+def test_a_bet_is_answered_before_the_climb_is_over(hill):
+    hill.bet("not always").wait("Of 100 starts", ".ab-closing")
+
+    assert "right" in hill.closing
+    assert "the climb ends" not in hill.closing

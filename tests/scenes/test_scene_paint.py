@@ -25,7 +25,10 @@ COUNTS = {
         "torn",
         100,
     ),
-    "of them: one action for each abstract state is right": ("right", 100),
+    "of the small one's states: one action for each abstract state is right": (
+        "right",
+        100,
+    ),
 }
 
 
