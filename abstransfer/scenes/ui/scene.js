@@ -139,7 +139,10 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
     paint(store.values, names);
     me.warn(store.problems, `${sorry} ${odd}`.trim());
     for (const { name: of, show } of controls) show(store.values[of], store.limits[of]);
-    if (focused && !isSeen(focused)) nextTo(focused, shell)?.focus();
+    const isLost = focused?.isConnected && !isSeen(focused);
+    const isElsewhere = document.activeElement !== focused &&
+      shell.contains(document.activeElement);
+    if (isLost && !isElsewhere) nextTo(focused, shell)?.focus();
   }
   function stop() {
     job?.stop();
