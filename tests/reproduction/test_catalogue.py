@@ -84,7 +84,7 @@ def test_nd_is_built_by_its_own_formula_too(guides):
 # Experiments
 
 
-STUDIES = [experiment for experiment in EXPERIMENTS if experiment.guides]
+STUDIES = [one for one in EXPERIMENTS if isinstance(one, Experiment) and one.guides]
 
 
 def test_every_guide_of_a_strategy_has_the_same_tau():
