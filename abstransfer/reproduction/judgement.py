@@ -105,7 +105,7 @@ def gains(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     And which vary as that does from sample to sample, to the first order: for
     differences of gains.
 
-    >>> gains(np.array([6.0, 6.0]), np.array([4.0, 6.0])).tolist()
+    >>> gains(np.array([6.0, 6.0]), np.array([4.0, 6.0])).round(6).tolist()
     [0.44, -0.04]
     """
     ratio = a.mean() / b.mean()
