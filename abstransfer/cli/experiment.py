@@ -8,7 +8,7 @@ import os
 
 from ..experiments.arms import SCALES
 from ..experiments.plan import SEED
-from .cost import say_how_long
+from .cost import EVERYTHING, say_how_long
 from .options import (
     add_folder,
     add_map,
@@ -41,8 +41,9 @@ def add_options(parser) -> None:
     what.add_argument("--tau-grid", action="store_true", help=text)
     add_folder(what, "tuned", "use the best tau of the grid in this folder")
     text = (
-        "all that the book shows: both rewards, grids, tuned tau, four buildings, and "
-        "what makes advice teach (page 10)"
+        "all that the book shows: both rewards, grids, tuned tau, four buildings, "
+        "controls, three readings of the learner, and what makes advice teach "
+        f"(page 10); some {EVERYTHING} minutes of one core"
     )
     what.add_argument("--everything", action="store_true", help=text)
 

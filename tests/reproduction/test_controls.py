@@ -12,7 +12,6 @@ from abstransfer.reproduction.buildings import draw_building
 from abstransfer.reproduction.catalogue import (
     EXPERIMENTS,
     FINE,
-    PLANNED,
     reproduce,
 )
 from abstransfer.reproduction.guides import make_guides
@@ -52,7 +51,7 @@ def test_exchanged_rows_are_the_others_in_the_traps_and_its_own_elsewhere(prob):
 
 def test_controls_of_all_kinds_run_and_a_tuned_one_reads_its_grid(tmp_path):
     folders = ("controls-target", "compass-target-tau", "compass-target-tuned")
-    chosen = [one for one in (*EXPERIMENTS, *PLANNED) if one.folder in folders]
+    chosen = [one for one in EXPERIMENTS if one.folder in folders]
     with ThreadPoolExecutor(2) as pool:
         found = reproduce(
             tmp_path, experiments=chosen, scale=SMALL, n_runs=1, executor=pool

@@ -5,6 +5,7 @@ import pytest
 
 from abstransfer.experiments.arms import ARMS, Arm
 from abstransfer.experiments.results import Results
+from abstransfer.reproduction.catalogue import TARGETS
 from abstransfer.reproduction.hypotheses import (
     OPERATED,
     RULES,
@@ -382,3 +383,24 @@ def test_the_table_puts_what_was_predicted_beside_the_verdict():
     }
     assert rows[0]["effect"].startswith("-5 goals")
     assert {arm.name for arm in ARMS} <= {arm.name for arm in nine().arms}
+
+
+# The stored results
+
+
+def test_what_stored_results_say_of_each_hypothesis():
+    """Those that came otherwise than they were predicted are shown so."""
+    otherwise = {
+        **{"N5": "holds in part", "N7": "refuted", "N8": "holds in part"},
+        **{"N10": "holds in part", "K1": "refuted in part", "K2": "refuted in part"},
+    }
+    found = {key: judged.verdict for key, judged in judge_hypotheses().items()}
+
+    assert found == dict.fromkeys(RULES, "holds") | otherwise
+
+
+def test_every_hypothesis_is_judged_in_each_of_its_buildings():
+    for key, found in judge_hypotheses().items():
+        places = {"A": ["target"], "B": ["drawn"]}.get(key[0], TARGETS)
+        places = ["target"] if key == "K3" else places
+        assert list(dict.fromkeys(part.where for part in found.parts)) == list(places)
