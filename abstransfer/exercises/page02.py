@@ -221,39 +221,40 @@ def greedy_set(q_row, tolerance):
         "ex-2-3",
         "Values start at the rewards: -1, and 0 on the goal; the discount is 0.99. "
         "What "
-        "is the value, after 5 sweeps, of a cell that is more than 5 steps from the "
+        "is the value, after 7 sweeps, of a cell that is more than 7 steps from the "
         "goal?",
-        -(1 - 0.99**6) / (1 - 0.99),
+        -(1 - 0.99**8) / (1 - 0.99),
         tolerance=1e-3,
         hints=(
             "A cell looks at its neighbors only, so no news of the goal has come that "
             "far. What does such a cell believe?",
             "That it will pay 1 in each of the sweeps so far: each adds one discounted "
             "coin to the one that was there at the start.",
-            "-(1 + 0.99 + ... + 0.99^5): how many terms are that?",
+            "-(1 + 0.99 + ... + 0.99^7): how many terms are that?",
         ),
         wrong=[
             Wrong(
                 "one coin too few",
-                -(1 - 0.99**5) / (1 - 0.99),
-                "Before the first sweep the value is -1 already: six coins, not five.",
+                -(1 - 0.99**7) / (1 - 0.99),
+                "Before the first sweep the value is -1 already: eight coins, not "
+                "seven.",
             ),
             Wrong(
                 "one coin too many",
-                -(1 - 0.99**7) / (1 - 0.99),
-                "One coin at the start and one per sweep: six, not seven.",
+                -(1 - 0.99**9) / (1 - 0.99),
+                "One coin at the start and one per sweep: eight, not nine.",
             ),
             Wrong(
-                "no discount", -6, "Six coins, but each later one counts 0.99 times."
+                "no discount", -8, "Eight coins, but each later one counts 0.99 times."
             ),
             Wrong(
-                "the end, not five sweeps",
+                "the end, not seven sweeps",
                 -100,
                 "That is what a cell believes that never hears of the goal.",
             ),
             Wrong(
                 "the sign",
-                (1 - 0.99**6) / (1 - 0.99),
+                (1 - 0.99**8) / (1 - 0.99),
                 "The size is right. But the robot pays: the value is below 0.",
             ),
         ],
@@ -264,16 +265,12 @@ OPEN = [
     Open(
         "ex-2-4",
         hints=(
+            "What does a tie say about the two states that the two actions lead to?",
             '`at.break_ties(optimal, "first")` is a policy, but for the rows of the '
             "goals: no action is best there, so give each 1/8. "
             "`at.evaluate_policy(office.mdp, policy)` judges it.",
-            '`at.abstract_policies(office, ("nd", "prob"), ties="first")` makes two '
-            "kinds of advice, ND and Prob: arrays with a row for each thing that may "
-            "be seen.",
-            "`office.rho` says what is seen in each state, so `nd[office.rho]` is the "
-            "policy of a robot that obeys the advice `nd`.",
         ),
-        good="driving stays at -14.00; the advice changes a little, ND from -44.06 to "
-        "-43.74",
+        good="in the 64 states with a tie; all drive at -14.00, because a tie says "
+        "that what follows is worth the same",
     ),
 ]
