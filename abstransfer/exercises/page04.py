@@ -183,32 +183,50 @@ def near_goal(cell, goal, width, near):
     ),
     value(
         "ex-4-3",
-        "How many abstract states occur among the cells of the source building, over "
-        "all tasks, goals left out?",
-        88,
-        also=(96,),  # in the target
+        "From a cell one to four ways are open, and each shows one of eight sights; "
+        "two may show the same. A goal is near, almost near or neither, and a cell is "
+        "in a room or not. How many abstract states can there be? And how many sets of "
+        "sights?",
+        972,
+        also=(162,),
         hints=(
-            "The array `source.rho` holds one number for each state. Count different "
-            "ones.",
-            "The goals are where `source.mdp.terminal` is true: leave them out.",
-            "`len(np.unique(source.rho[~source.mdp.terminal]))`.",
+            "Count the sets of sights first: one, two, three or four of eight.",
+            "There are 8 sets of one, 28 of two, 56 of three and 70 of four.",
+            "Multiply by the three distances, and by in a room or not.",
         ),
         wrong=[
             Wrong(
                 "all that can be written",
                 2048,
-                "11 features can be combined in 2 to the power 11 ways; most of them "
-                "never occur.",
+                "11 answers can be combined in 2 to the power 11 ways. Which of them "
+                "can no cell give?",
             ),
             Wrong(
-                "the states",
-                1485,
-                "These are the states, 11 tasks of 135 cells. Many of them look alike.",
+                "near and almost near at once",
+                8 * 162,
+                "You let the three last answers be anything. But almost near means: "
+                "not near any more.",
             ),
             Wrong(
-                "the goals counted", 89, "On the goal the task is over: leave it out."
+                "more ways than four",
+                6 * 255,
+                "A cell has four sides, so no more than four sights at once.",
             ),
-            Wrong("the other building", 96, "That is the target building."),
+            Wrong(
+                "no way open",
+                6 * 163,
+                "You count the empty set, too: a cell from which no way is open.",
+            ),
+            Wrong(
+                "the sights alone",
+                162,
+                "That many sets of sights there are. Distance and room come on top.",
+            ),
+            Wrong(
+                "those that occur",
+                88,
+                "So many occur in the small building. Asked is how many there can be.",
+            ),
         ],
     ),
 ]
@@ -228,8 +246,7 @@ OPEN = [
     Open(
         "ex-4-5",
         hints=(
-            '`compass = at.navigation_tasks(source_map, actions="compass")`; `drive`, '
-            "from the first cell of this page, judges advice.",
+            "`compass` and `judge` stand in the first cell of this page.",
             'What would "go north" mean to a robot in another room, with the same '
             "view?",
             "The goal lies south, north or level, and east, west or level: nine sides. "

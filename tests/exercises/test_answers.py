@@ -97,7 +97,7 @@ def test_a_share_may_be_given_in_percent(key):
         ("ex-1-1", "-(1 - 0.99^20)/(1 - 0.99)"),
         ("ex-1-2", "1/(1-0.99)"),
         ("ex-1-2", "10**2"),
-        ("ex-2-3", "-(1 + 0.99 + 0.99^2 + 0.99^3 + 0.99^4*(1 + 0.99 + 0.99^2 + 0.99^3)) = -7,73"),
+        ("ex-2-3", "-(1 + 0.99 + 0.99^2 + 0.99^3)*(1 + 0.99^4) = -7,73"),
         ("ex-3-4", "\u22121 \u00f7 (1 \u2212 0,95)"),
         ("ex-5-3", "36/46"),
         ("ex-7-2", "\u221293.88"),
@@ -106,7 +106,7 @@ def test_a_share_may_be_given_in_percent(key):
         ("ex-9-2b", "5/9"),
         ("ex-9-3b", "60 points"),
         ("ex-9-3b", "30,000,000/500,000"),
-        ("ex-4-3", "88 views"),
+        ("ex-4-3", "972 views"),
     ],
 )
 def test_a_formula_in_a_text_is_read(key, answer):
@@ -116,10 +116,10 @@ def test_a_formula_in_a_text_is_read(key, answer):
 @pytest.mark.parametrize(
     ("key", "answer"),
     [
-        ("ex-4-3", (88, 96)),
-        ("ex-4-3", "88, 96"),
-        ("ex-4-3", "(88, 96)"),
-        ("ex-4-3", "88 and 96"),
+        ("ex-4-3", (972, 162)),
+        ("ex-4-3", "972, 162"),
+        ("ex-4-3", "(972, 162)"),
+        ("ex-4-3", "972 and 162"),
         ("ex-5-3", (0.783, 6.6)),
         ("ex-5-3", [0.36 / 0.46, 7]),
         ("ex-7-2", (-93.88, 3.17)),
@@ -131,10 +131,10 @@ def test_both_numbers_may_be_given_where_two_were_asked_for(key, answer):
 
 
 def test_of_two_numbers_the_right_one_is_told():
-    assert "Number 1 of yours is right" in check("ex-4-3", (88, 95)).text
-    assert "Number 2 of yours is right" in check("ex-4-3", (87, 96)).text
+    assert "Number 1 of yours is right" in check("ex-4-3", (972, 161)).text
+    assert "Number 2 of yours is right" in check("ex-4-3", (971, 162)).text
     assert "Number 1 of yours is right" in check("ex-7-2", (-93.88, 0.5)).text
-    assert "of yours" not in check("ex-4-3", (96, 88)).text
+    assert "of yours" not in check("ex-4-3", (162, 972)).text
 
 
 @pytest.mark.parametrize(
@@ -285,7 +285,7 @@ def half_of_the_time(answer, solution):
         ("ex-1-2", "infinity", "a sum without end is infinite"),
         ("ex-2-3", -6.79, "one coin too few"),
         ("ex-2-3", -8, "no discount"),
-        ("ex-4-3", 89, "the goals counted"),
+        ("ex-4-3", 978, "no way open"),
         ("ex-5-3", "36 %", "not normalised"),
         ("ex-6-3", 0.9667, "shared out equally"),
         ("ex-7-2", -94.1, "goals left out"),
@@ -324,7 +324,7 @@ WRONG = {
         lambda q_row, tolerance: np.flatnonzero(q_row >= q_row.max() - 1e-9),
     ),
     "ex-6-1: nothing": ("ex-6-1", lambda f, x: 0 * x),
-    "ex-4-3: with other thresholds": ("ex-4-3", 86),
+    "ex-4-3: without the goals": ("ex-4-3", 971),
 }
 
 
