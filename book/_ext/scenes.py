@@ -1,20 +1,33 @@
 """
 A Sphinx extension that brings the scenes to the built book.
 
-A page loads the scripts of the scenes that it holds, and their style sheet.
+A page loads the scripts of the scenes that it holds, and their style sheet.  In a page
+without code cells the directive ``{scene} sights`` shows one.
 """
 
 import gzip
 import re
 from pathlib import Path
 
+from docutils import nodes
 from sphinx.util import logging
+from sphinx.util.docutils import SphinxDirective
 
 from abstransfer.scenes import KINDS, files
 
 LIMIT = 80_000  # bytes of one script before compression
 FOUND = re.compile(r'class="abstransfer-scene" data-scene="(\w+)"')
 logger = logging.getLogger(__name__)
+
+
+class SceneHere(SphinxDirective):
+    """A scene in its first state, as a cell of a notebook shows it."""
+
+    required_arguments = 1
+
+    def run(self):
+        html = KINDS[self.arguments[0]]().html()
+        return [nodes.raw("", html, format="html")]
 
 
 def write_files(app, exception):
@@ -47,6 +60,7 @@ def load_files(app, pagename, templatename, context, doctree):
 
 
 def setup(app):
+    app.add_directive("scene", SceneHere)
     app.connect("html-page-context", load_files)
     app.connect("build-finished", write_files)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

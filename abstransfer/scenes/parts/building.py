@@ -21,6 +21,7 @@ def draw_building(
     values: np.ndarray | None = None,
     limits: tuple[float, float] = (0.0, 1.0),
     texts: Sequence[str] = (),
+    arrows: np.ndarray | None = None,
     robots: Mapping[int, str] | None = None,
     goal: int | None = None,
 ) -> str:
@@ -38,6 +39,8 @@ def draw_building(
         Values of no tint and of the strongest.
     texts : sequence of str, one per cell
         A goal that does not count gives way to its text.
+    arrows : ndarray of float, shape (C, 4), optional
+        How likely is north, east, south, west: as long as that, from the middle.
     robots : dict from cell to str, optional
         Names of those who stand there, larger than the cell; "" is a small robot.
     goal : int, optional
@@ -59,6 +62,8 @@ def draw_building(
         elif cell not in written:
             star = path(STAR, "goal", 1.5, fill="ground", move=_middle(map_, cell))
             parts.append(star)
+    if arrows is not None:
+        parts.append(path(_arrows(map_, arrows), "ink", 1.2))
     words = [_words(_middle(map_, cell), what, 6.5) for cell, what in written.items()]
     parts.append(group(words, "font-size:6.5px;text-anchor:middle"))
     for cell, name in (robots or {}).items():
@@ -70,6 +75,22 @@ def draw_building(
 def _middle(map_: Map, cell: int) -> tuple[float, float]:
     row, column = divmod(int(cell), map_.shape[1])
     return CELL * (column + 0.5), CELL * (row + 0.5)
+
+
+def _arrows(map_: Map, weights: np.ndarray) -> str:
+    """Return arrows, those of less than 0.02 left out."""
+    drawn = []
+    for cell, way in zip(*np.nonzero(np.asarray(weights) > 0.02), strict=True):
+        x, y = _middle(map_, cell)
+        dx, dy = ((0, -1), (1, 0), (0, 1), (-1, 0))[way]
+        tip, barb = CELL * (0.15 + 0.3 * weights[cell, way]), 2.4
+        x_tip, y_tip = x + dx * tip, y + dy * tip
+        x_back, y_back = x_tip - dx * barb, y_tip - dy * barb
+        left = at(x_back + dy * barb, y_back + dx * barb)
+        right = at(x_back - dy * barb, y_back - dx * barb)
+        head = f"M{left}L{at(x_tip, y_tip)}L{right}"
+        drawn.append(f"M{at(x, y)}L{at(x_tip, y_tip)}{head}")
+    return "".join(drawn)
 
 
 def _words(middle: tuple[float, float], words: str, size: float) -> str:

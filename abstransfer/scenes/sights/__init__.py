@@ -1,0 +1,1 @@
+"""What a robot sees, and what advice makes of it."""
