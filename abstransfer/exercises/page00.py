@@ -17,11 +17,11 @@ OPEN = [
     Open(
         "ex-0-2",
         hints=(
-            "`curves[name].mean(axis=0)` is the average curve.",
+            '`curves["nd-hard"].mean(axis=0)` is the average curve of ND.',
             "`(curve > 5000).argmax()` is the first place where that is true.",
         ),
-        good="ND after 5.0, Prob after 9.5, random after 11.5, no advice after 17.5 "
-        "million steps; the order of the totals, not that of the ends",
+        good="ND after 5.0, Prob after 9.5, the wanderer after 11.5, no advice after "
+        "17.5 million steps; the order of the totals, not that of the ends",
     ),
     Open(
         "ex-0-3",
