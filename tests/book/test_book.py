@@ -1,6 +1,7 @@
 """The built book as files: whole, described, and free of the network."""
 
 import re
+import runpy
 from functools import cache
 from urllib.parse import unquote, urlsplit
 
@@ -10,6 +11,7 @@ from support import ROOT, toc_pages
 
 from abstransfer.exercises import exercises_of, open_exercises_of
 
+TERMS = runpy.run_path(str(ROOT / "book" / "_ext" / "terms.py"))
 PAGES = toc_pages()
 LOADS = {  # what a browser fetches by itself, and from which attribute
     "script": "src",
@@ -173,3 +175,62 @@ def test_every_public_module_is_in_the_reference_once():
 
     assert len(listed) == len(set(listed))
     assert not public - set(listed), "each needs a section in its room's page"
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_what_a_drawn_picture_says_stands_below_it_too(html, name):
+    for picture in soup(html / f"{name}.html").select("article .cell_output img"):
+        caption = picture.find_next(class_="ab-caption")
+
+        assert caption.get_text() == picture["alt"]
+        assert caption["aria-hidden"] == "true", "a screen reader is told it once"
+
+
+EVERYDAY = TERMS["EVERYDAY"]
+
+
+SKIPPED = {"h1", "h2", "h3", "h4", "code", "pre", "script", "style", "figure"}
+
+
+def glossary(html):
+    """Return the words of the glossary that mean one thing only."""
+    words = [
+        t.get_text() for t in soup(html / "notation.html").select("dl.glossary dt")
+    ]
+    words = [re.sub(r"\W+$", "", word) for word in words]
+
+    assert len(words) > 50
+    return [w for w in words if w.lower() not in EVERYDAY and "," not in w]
+
+
+def first_use(article, word):
+    """Return the node of running text that uses a word first, or None."""
+    found = TERMS["pattern"](word)
+    for text in article.find_all(string=found):
+        inside = {tag.name for tag in text.parents}
+        if not inside & SKIPPED and not text.find_parent(class_="ab-caption"):
+            return text
+    return None
+
+
+@pytest.mark.parametrize("name", [n for n in PAGES if re.match(r"\d|intro", n)])
+def test_the_first_use_of_a_word_of_the_glossary_leads_there_or_says_it(html, name):
+    article = soup(html / f"{name}.html").find("article")
+    for word in glossary(html):
+        text = first_use(article, word)
+        if text is None:
+            continue
+        around = text.find_parent(["a", "strong", "em", "b"])
+        tag = around.name if around else "nothing"
+        assert tag != "nothing", f"{word}: {text.strip()[:80]}"
+
+
+def test_each_word_of_every_day_is_set_off_where_a_page_explains_it(html):
+    """Words with a sense of their own here: no link by itself, but a place."""
+    set_off = set()
+    for path in html.glob("[0-9]*.html"):
+        for tag in soup(path).find("article").select("strong, em, b, a.term, a > span"):
+            set_off.add(tag.get_text().lower().strip(" .:,"))
+    plain = {word for word in EVERYDAY if not {word, word + "s"} & set_off}
+
+    assert not plain, sorted(plain)

@@ -29,6 +29,11 @@ DRAWN = """async () => {
     await pictures(2);
 }"""
 
+# Displayed formulas that need more room than their column, and how much.
+WIDER = """() => [...document.querySelectorAll("article div.math")]
+    .map((box) => [box.id, box.scrollWidth, box.clientWidth])
+    .filter(([, needed, given]) => needed > given + 1)"""
+
 
 def drawn(page):
     """Wait until formulas, letters and scenes are there, and no colour glides."""
@@ -77,6 +82,17 @@ def test_a_page_fits_a_phone(page):
         page.set_viewport_size(WIDE)
 
     assert widths == [400, 320]
+
+
+def test_no_formula_is_wider_than_a_small_phone(page):
+    """It could scroll, but what is cut looks complete: lines are broken instead."""
+    page.set_viewport_size({"width": 360, "height": 800})
+    try:
+        wide = drawn(page).evaluate(WIDER)
+    finally:
+        page.set_viewport_size(WIDE)
+
+    assert wide == []
 
 
 def test_who_chooses_in_a_quiz_by_keyboard_gets_the_reply_of_that_choice(page):
