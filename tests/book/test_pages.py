@@ -15,6 +15,10 @@ LESSONS = sorted(BOOK.glob("[0-9]*.ipynb"))
 TEXTS = sorted([*BOOK.glob("*.md"), *BOOK.glob("*.ipynb")])
 CHOICE = re.compile(r"^```\{dropdown\} ([^\n]+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 QUESTION = re.compile(r"^\*\*(\d)\.\*\* ", re.MULTILINE)
+LONGER = {  # pages of more than 1,800 words, and why
+    "09_figures": "the paper's five claims are judged one by one",
+    "10_worst_driver": "each explanation has its own experiment",
+}
 
 
 def text_of(path):
@@ -92,6 +96,33 @@ def test_each_exercise_has_a_solution_and_belongs_to_an_outcome(lesson):
     assert len(asked) >= 3
     assert asked == solved
     assert all(f"<{key}>" in outcomes for key in asked)
+
+
+def n_words(text):
+    """Count the words of a page without exercises, quiz, formulas, lecturer's box."""
+    before, _, after = text.partition("\n## Exercises\n")
+    text = before + after.partition("\n## Takeaways\n")[2]
+    box = r"^(`{4,})\{admonition\} For the lecturer.*?^\1"
+    text = re.sub(box, "", text, flags=re.MULTILINE | re.DOTALL)
+    formula = r"^```\{math\}.*?^```|\$\$.*?\$\$|\$[^$]*\$"
+    text = re.sub(formula, "", text, flags=re.MULTILINE | re.DOTALL)
+    return len(re.findall(r"[A-Za-z][\w'\u2019-]*", text))
+
+
+@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
+def test_a_page_has_1000_to_1800_words_without_exercises_and_quiz(path):
+    n = n_words(text_of(path))
+
+    assert n >= 1000
+    assert n <= 1800 or path.stem in LONGER
+
+
+def test_each_outcome_of_a_page_is_what_an_exercise_asks_for(lesson):
+    box = lesson.partition("\n*You need:*")[0]
+    outcomes = re.findall(r"^\d+\. .*$", box, re.MULTILINE)
+
+    assert len(outcomes) >= 3
+    assert all("{ref}`exercise" in outcome for outcome in outcomes)
 
 
 @pytest.mark.parametrize(
