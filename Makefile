@@ -5,7 +5,8 @@
 # make lab    open the notebooks in JupyterLab
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
-# make nightly  the long forms of the tests that draw what happens, an hour
+# make nightly  the long forms of the tests that draw what happens, an hour; and
+#   whether all that is pinned can be had for each Python
 # make bench  measure the learning loops beside other people's, and the pages
 # make clean  remove what these made
 #
@@ -20,6 +21,7 @@ DENO := DENO_DIR=.venv/share/deno $(BIN)/deno
 # The third process has work while another waits for a browser.
 PYTEST := $(BIN)/python -m pytest --quiet -n 3 --dist loadfile --no-loadscope-reorder \
   --durations=15 --durations-min=5
+PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is pinned
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
@@ -92,6 +94,11 @@ nightly: .venv/.book system
 	DISTURBANCES=250 $(BIN)/python -m pytest --quiet --capture=tee-sys \
 	  tests/experiments/test_store.py tests/cli/test_interrupts.py \
 	  tests/scenes/test_addresses.py
+	$(PIP) uv
+	for version in $(PYTHONS); do \
+	  $(BIN)/uv pip compile pyproject.toml --extra test --extra lab -c constraints.txt \
+	    --python-version $$version --only-binary :all: --quiet > /dev/null || exit 1; \
+	done
 
 # On a build server the browser comes from the system's packages and no test is
 # skipped; elsewhere the tests that need it say how to get it.
