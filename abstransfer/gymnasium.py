@@ -38,7 +38,7 @@ class Navigation(gymnasium.Env):
     maps : Map, name or path, or several
     render_mode : {"ansi", "rgb_array"}, optional
     **options
-        Those of :func:`abstransfer.navigation_tasks`, for instance ``reward="goal"``.
+        Those of :func:`abstransfer.navigation.navigation_tasks`, as ``reward="goal"``.
 
     Examples
     --------

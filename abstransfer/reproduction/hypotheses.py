@@ -387,6 +387,8 @@ def judge_hypotheses(
     FileNotFoundError
         If results are missing, by name.
 
+    Examples
+    --------
     >>> judge_hypotheses(["N1"])["N1"].verdict
     'holds'
     """
