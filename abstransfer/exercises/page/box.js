@@ -53,7 +53,8 @@ export function showBox(element, task) {
 function hideStub(exercise, code) {
   const head = code.split("\n")[0];
   for (const pre of exercise.querySelectorAll("pre")) {
-    if (pre.textContent.startsWith(head)) pre.classList.add("ab-in-box");
+    const block = pre.closest("[class*=highlight-]") ?? pre; // it has a ground of its own
+    if (pre.textContent.startsWith(head)) block.classList.add("ab-in-box");
   }
 }
 

@@ -73,7 +73,8 @@ export const kept = (page, id) => {
  * @param {string} value "" forgets it
  */
 export function keep(page, id, value) {
-  const { [id]: _, ...all } = read(page);
+  const { [id]: before = "", ...all } = read(page);
+  if (before === value) return;
   write(page, value ? { ...all, [id]: `${value}` } : all);
 }
 

@@ -165,14 +165,3 @@ export function toUrl(id, spec, { values, start }) {
     // Not allowed here: the scene works, its moments have no address.
   }
 }
-
-// ---- bets stay in this tab
-
-export const kept = (key, value) => {
-  try {
-    if (value === undefined) return sessionStorage.getItem(key) ?? "";
-    return sessionStorage.setItem(key, value);
-  } catch {
-    return "";
-  }
-};

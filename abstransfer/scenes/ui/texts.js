@@ -3,7 +3,7 @@
 
 import { askedByPage } from "./asked.js";
 import { make } from "./dom.js";
-import { kept } from "./state.js";
+import { keep, kept, onReplaced, pageHere } from "./kept.js";
 
 /** @import { Scene } from "../types.d.ts" */
 
@@ -124,7 +124,7 @@ export function shell(scene, body, below) {
 
 // ---- bets: kept in this tab, told to nobody
 
-const key = (scene, name) => `abstransfer ${location.pathname} ${scene.id}.${name}`;
+const idOf = (scene, name) => `${scene.id}.${name}`;
 const SKIP = "I do not bet: show me";
 
 // A bet that is placed is one line: the picture that it is about comes nearer.  Who
@@ -164,11 +164,12 @@ export function bindBets(scene) {
       return asked.node;
     }
     const choice = scene.choice(name, { label: question, options: { ...options, skip: SKIP } });
-    const before = kept(key(scene, name));
-    if (before && !scene.state[name]) scene.set({ [name]: before });
+    const before = () => kept(pageHere(), idOf(scene, name));
+    if (before() && !scene.state[name]) scene.set({ [name]: before() });
+    scene.onLeave(onReplaced(() => scene.set({ [name]: before() })));
     const [placed, show] = folded(scene, choice, options);
     scene.control(name, (value) => {
-      kept(key(scene, name), value);
+      keep(pageHere(), idOf(scene, name), value);
       show(value);
     });
     return make("div", { class: "ab-bet" }, choice, placed);
@@ -186,5 +187,5 @@ export function bindBets(scene) {
 
 /** @param {Scene} scene */
 export const dropBets = (scene) => {
-  for (const name of Object.keys(scene.bets ?? {})) kept(key(scene, name), "");
+  for (const name of Object.keys(scene.bets ?? {})) keep(pageHere(), idOf(scene, name), "");
 };
