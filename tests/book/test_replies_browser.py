@@ -60,7 +60,7 @@ def test_a_scene_and_its_page_say_a_bet_in_the_same_words(opened, name):
             if not box.locator(".bet-option").first.is_visible():
                 box.get_by_role("button", name="Your bet:").click()
             button = box.locator(".bet-option").nth(index)
-            text = button.evaluate("b => b.textContent")
+            text = button.evaluate("b => b.textContent").replace("’", "'")
             button.click()
             line = page.locator(f'.ab-bet:has(a[href="#{bet.name}"])')
             line.get_by_text(f"You bet on “{text}”.").wait_for()
