@@ -7,6 +7,10 @@ from test_moments import links
 LIVE = "() => !document.querySelector('.abstransfer-scene:not(.ab-live)')"
 NAMES = [path.stem for path in PAGES]
 STATE = "() => document.querySelector('.ab-body').innerHTML"
+UNFOLDED = """() => {
+    for (const details of document.querySelectorAll("details:not([class])"))
+        details.open = true;
+}"""
 CALM = """() => new Promise((done) => {
     const pictures = (n) => n ? requestAnimationFrame(() => pictures(n - 1)) : done();
     pictures(4);
@@ -91,6 +95,7 @@ def test_each_link_changes_the_scene_and_back_returns(opened, name):
     page, tab = opened(name)
     page.evaluate("window.isSame = true")
     assert links(PAGES[NAMES.index(name)])
+    page.evaluate(UNFOLDED)
     for link in page.locator("article a[href^='#'][href*='=']").all():
         page.evaluate(CALM)
         before, place = page.evaluate(STATE), page.evaluate("scrollY")
