@@ -8,6 +8,7 @@ from buildings import tile_map
 from golden.foreign_texts import LARGER_CELLS, NAMED
 from scene_tab import bare, number
 
+from abstransfer.abstraction import LABELS
 from abstransfer.builders import abstract_policies
 from abstransfer.driving import PAPER, ROWS, column
 from abstransfer.maps import parse_map, read_map
@@ -414,8 +415,7 @@ def test_python_reads_the_drawing_and_draws():
 
 def test_a_robot_says_a_label_and_chance_takes_the_way(studio):
     studio.go("#studio.start=51&studio.walk=")
-    told = studio.root.get_by_text("The robot waits")
-    assert told.is_visible()
+    assert studio.root.get_by_text("The robot waits").first.is_visible()
     button = studio.root.locator("tbody button").first
     name = button.inner_text()
     button.focus()
@@ -423,5 +423,6 @@ def test_a_robot_says_a_label_and_chance_takes_the_way(studio):
 
     assert f"Step 1: (s, a, s\u2032, r) = ((4, 7), {name}, " in studio.root.inner_text()
     assert studio.page.evaluate("document.activeElement.closest('table') !== null")
-    assert re.search(r"studio.walk=\d", studio.url_with("studio.walk="))
+    assert LABELS[0].replace("_", " ") == name
+    assert studio.url_with("studio.walk=0")
     assert studio.problems == []
