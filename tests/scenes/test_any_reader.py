@@ -125,7 +125,7 @@ def test_a_finger_moves_a_slider_and_a_tap_too(open_scene):
 def large():
     """A building of one room, 40 x 40 cells: solving it waits to be asked for."""
     rows = ["|" + " " * 79 + "|"] * 79
-    rows[38] = "|" + "*".center(79) + "|"
+    rows[38] = "|" + " " * 38 + "*" + " " * 40 + "|"
     wall = "+" + "-" * 79 + "+"
     return "\n".join([wall, *rows, wall])
 
