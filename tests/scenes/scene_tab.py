@@ -128,6 +128,8 @@ class SceneTab:
 
     def pictures(self, n):
         """What the scene holds in each of some pictures: one, if nothing moves."""
+        nameless = "[role=gridcell]:not([aria-label])"  # until a scene rests
+        self.page.wait_for_function(f"!document.querySelector('{nameless}')")
         seen = set()
         for _ in range(n):
             seen.add(self.settle().root.inner_html())

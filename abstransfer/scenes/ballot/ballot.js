@@ -32,7 +32,6 @@ defineScene("ballot", {
       describe: (cell) => describe(cell),
       onAct: ({ cell }) => act(cell),
       keys: [["Enter, Space", "open the box of the cell; on a hollow star: make it the goal"]],
-      minCell: 16, // all of it on a phone
     });
     const cast = barChart({ label: "Votes in the box", format: (x) => number(x), low: 0 });
     const chances = barChart({
