@@ -155,7 +155,7 @@ def test_by_keyboard_alone_to_the_end_in_the_dark_on_a_phone(page):
 
     assert scene.closing.startswith("You bet on \u201c5 runs\u201d: right.")
     assert "after 7 runs" in scene.closing
-    scene.wait("all 50 say", "[aria-live]")
+    scene.wait("all 50 say", "[role=status]")
     assert scene.page.evaluate("document.documentElement.scrollWidth") <= 400
     assert scene.small_controls() == []
     assert scene.violations() == []

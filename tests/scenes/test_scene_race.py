@@ -179,7 +179,7 @@ def test_by_keyboard_alone_to_the_end(show, race):
 
     assert scene.slider("Step").input_value() == "76"
     assert "You bet on" in scene.closing
-    scene.wait("You bet on", "[aria-live]")
+    scene.wait("You bet on", "[role=status]")
 
 
 def test_an_own_policy_races_too(show):

@@ -219,7 +219,7 @@ def test_by_keyboard_alone_to_the_end(show):
     assert scene.focused == "To the end"
     assert "about 25\u201d; it was \u201cabout 75\u201d" in scene.closing
     assert "row 1, column 4, in sweep" in scene.root.inner_text()
-    scene.wait("You bet on", "[aria-live]")
+    scene.wait("You bet on", "[role=status]")
     assert scene.small_controls() == []
 
 

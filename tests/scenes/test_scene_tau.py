@@ -178,7 +178,7 @@ def test_by_keyboard_alone_to_the_end(show, slider):
 
     assert scene.slider("Advice until step").input_value() == "9500000"
     assert page.evaluate(f"{focus}.innerText") == "Ten \u03c4 are known"
-    scene.wait("You bet on", "[aria-live]")
+    scene.wait("You bet on", "[role=status]")
     assert scene.violations() == []
 
 
