@@ -425,7 +425,8 @@ def places_table(judged: Mapping[str, Judged]) -> list[dict]:
     Return a row for each hypothesis: predicted, known before, and place by place.
 
     A part is told by its share of ND's lead, where it was asked for one, else by
-    its effect; several parts of a place stand one after the other.
+    its effect, or in words where that has no interval; several parts of a place
+    stand one after the other.
     """
     said, rows = predictions(), []
     for key, found in judged.items():
@@ -433,11 +434,18 @@ def places_table(judged: Mapping[str, Judged]) -> list[dict]:
         row = {"": key, "claim": claim, "predicted": predicted}
         row |= {"known before": known or "nothing", "verdict": found.verdict}
         for part in found.parts:
-            text = f"{100 * part.share:.0f} %" if part.share else part_text(part)
-            text = f"{text or part.what}: {part.verdict}"
+            text = f"{_told(part)}: {part.verdict}"
+            if np.isnan(part.effect.low):
+                words = filter(None, (part.what, part_text(part)))
+                came = {HOLDS: "as predicted", REFUTED: "not as predicted"}
+                text = f"{': '.join(words)} ({came.get(part.verdict, part.verdict)})"
             row[part.where] = "; ".join(filter(None, (row.get(part.where), text)))
         rows.append(row)
     return rows
+
+
+def _told(part: Part) -> str:
+    return f"{100 * part.share:.0f} %" if part.share else part_text(part)
 
 
 def part_text(part: Part) -> str:

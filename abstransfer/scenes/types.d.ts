@@ -106,6 +106,7 @@ export interface Job {
   rule: Partial<Rule>;
   seed: number;
   key?: number[]; // a spawn key
+  notes?: Float64Array; // the table that it begins with
   steps: number;
   window: number; // steps
 }

@@ -29,9 +29,9 @@ def page_of(key):
 
 
 def test_each_page_has_a_moment_to_show():
-    assert sorted(page for page, _ in MOMENTS) == sorted(
-        path.stem for path in BOOK.glob("[0-9]*.ipynb")
-    )
+    pages = {path.stem for path in BOOK.glob("[0-9]*.ipynb")}
+
+    assert {page for page, _ in MOMENTS} == pages
 
 
 @pytest.mark.parametrize(("page", "moment"), MOMENTS)

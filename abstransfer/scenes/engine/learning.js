@@ -102,14 +102,16 @@ export class Run {
    * @param {Partial<Rule>} rule
    * @param {number} seed a whole number
    * @param {number[]} key a spawn key
+   * @param {Float64Array | null} notes the table that it begins with, else of q0
    */
-  constructor(world, guide, rule, seed, key = []) {
+  constructor(world, guide, rule, seed, key = [], notes = null) {
     this.world = world;
     this.guide = guide;
     /** @type {Rule} */
     this.rule = { ...RULE, ...rule };
     this.seed = seed;
     this.key = key;
+    this.notes = notes;
     this.q = new Float64Array(A * world.nStates);
     this.top = new Float64Array(world.nStates); // the largest value of a state
     this.ties = new Uint8Array(world.nStates); // actions that have it; 0: terminal
@@ -131,6 +133,10 @@ export class Run {
       q.fill(0, A * s, A * s + A);
       top[s] = ties[s] = 0;
     });
+    if (this.notes) {
+      q.set(this.notes);
+      world.start.forEach((s) => rescan(q, top, ties, s));
+    }
     this.t = this.goals = this.cuts = 0;
     this.log = []; // what undoes the steps taken one at a time
     this.begin();

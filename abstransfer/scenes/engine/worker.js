@@ -9,8 +9,8 @@ const scope = /** @type {any} of a worker, not of a window */ (self);
 
 const SLICE = 250_000; // steps between two signs of life
 
-scope.onmessage = ({ data: { world, guide, rule, seed, key, steps, window } }) => {
-  const run = new Run(world, guide, rule, seed, key);
+scope.onmessage = ({ data: { world, guide, rule, seed, key, notes, steps, window } }) => {
+  const run = new Run(world, guide, rule, seed, key, notes);
   for (let i = 0; i < steps / window; i++) {
     let goals = 0;
     for (let left = window; left > 0; left -= SLICE) {

@@ -16,7 +16,7 @@ const LOOK = 5000; // milliseconds
 const LOOKS = 6;
 
 /**
- * Run jobs { world, guide, rule, seed, key, steps, window }, several at once.
+ * Run jobs { world, guide, rule, seed, key, notes, steps, window }, several at once.
  *
  *   onWindow(job, i, goals)   after window i of a job, both counted from 0: once each,
  *                             in order
@@ -129,7 +129,7 @@ function inWorker(member, job, tell) {
  * @param {() => boolean} isStopped
  */
 async function inPage(job, tell, isStopped) {
-  const run = new Run(job.world, job.guide, job.rule, job.seed, job.key);
+  const run = new Run(job.world, job.guide, job.rule, job.seed, job.key, job.notes);
   for (let i = 0; i < job.steps / job.window && !isStopped(); i++) {
     tell(i, run.learn(job.window));
     await new Promise((resume) => setTimeout(resume)); // let the page draw

@@ -1,0 +1,1 @@
+"""The scene of page 10 that operates on notes."""

@@ -1,0 +1,113 @@
+"""The scene of page 10: operate on a robot's notes, and let it go on."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import traitlets
+
+from ...driving import advised
+from ...experiments.plan import SEED
+from ...experiments.problem import Problem, build_guides, target_tasks
+from ...experiments.surgery import leave, noted
+from ...learning import q_learning_runs
+from ...reproduction.interventions import ADVISED, ALONE
+from ..files import WINDOWS
+from ..parts.runs import RunScene
+from .operations import KINDS, operate
+
+PATIENTS = ("nd", "prob")
+ADVICE = 7  # windows of a run: 3.5 of 30 million steps, the paper's hard tau
+
+
+class Surgery(RunScene):
+    """
+    Surgery on notes: change what a robot has noted, nothing else, and let it go on.
+
+    Parameters
+    ----------
+    patient : {"nd", "prob"}
+        Whose robot: it was advised for 3.5 million steps; the other helps out.
+    operation : {"none", "erase", "graft", "deal", "thin"}
+        Nothing; blank where the other has no notes; the other's notes where it has
+        none; notes dealt anew among the actions of their state; half of all states.
+    luck : int
+        Run of the stored operations; it also draws what is dealt or thinned.
+    map, source : Map, text or name
+        Where the robot learns, and where the advice comes from.
+    steps : int
+        Length of a run, advice included.
+
+    Examples
+    --------
+    >>> scene = Surgery(operation="erase", steps=600_000)
+    >>> scene
+    Surgery(operation='erase', steps=600000)
+    >>> len(scene.goals("nd", "none"))  # windows after the advice
+    53
+    """
+
+    scene = "surgery"
+    constants = {"advice": ADVICE, "advised": ADVISED, "alone": ALONE}
+    patient = traitlets.Enum(PATIENTS, "nd").tag(sync=True)
+    operation = traitlets.Enum(KINDS, "none").tag(sync=True)
+    bet = traitlets.Unicode("").tag(sync=True, local=True)
+    curves = traitlets.Dict().tag(sync=True, local=True)
+
+    def noted(self, patient: str, operation: str) -> float:
+        """Return the share of states that have a note when the robot goes on."""
+        tasks, notes = target_tasks(self.problem), self._notes(patient, operation)
+        return float(noted(notes)[~tasks.mdp.terminal].mean())
+
+    def goals(self, patient: str, operation: str) -> np.ndarray:
+        """Return the goals after the advice, by window (53,)."""
+        window = self.scale.window
+        return _alone(self.problem, window, self.luck, patient, operation)
+
+    def _notes(self, patient: str, operation: str) -> np.ndarray:
+        return _notes(self.problem, self.scale.window, self.luck, patient, operation)
+
+    def options(self) -> dict:
+        """Return the state of the built page: what no operation leads to is known."""
+        known = {
+            f"{patient} none {self.luck} {self.steps}": [
+                round(self.noted(patient, "none"), 4),
+                *self.goals(patient, "none").tolist(),
+            ]
+            for patient in PATIENTS
+        }
+        return self.changed | {"curves": known | self.curves}
+
+
+def _seed(stream: int, luck: int) -> np.random.SeedSequence:
+    return np.random.SeedSequence(SEED, spawn_key=(stream, luck - 1))
+
+
+@lru_cache(maxsize=4)
+def _left(problem: Problem, window: int, luck: int):
+    """Return what both robots have noted when the advice ends."""
+    tasks, built = target_tasks(problem), build_guides(problem, PATIENTS)
+    guides = {name: advised(tasks, advice) for name, advice in built.items()}
+    seed = _seed(ADVISED, luck)
+    return leave(tasks.mdp, tasks.available, guides, ADVICE * window, seed=seed)
+
+
+def _notes(problem, window, luck, patient, operation) -> np.ndarray:
+    """Return the notes (S, A) with which a robot goes on."""
+    left = _left(problem, window, luck)
+    other = PATIENTS[1 - PATIENTS.index(patient)]
+    mine, others = left.notes[patient], left.notes[other]
+    return operate(operation, mine, others, left.available, luck)
+
+
+@lru_cache(maxsize=64)
+def _alone(problem, window, luck, patient, operation) -> np.ndarray:
+    (run,) = q_learning_runs(
+        target_tasks(problem).mdp,
+        (WINDOWS - ADVICE) * window,
+        rngs=[_seed(ALONE, luck)],
+        q0s=[_notes(problem, window, luck, patient, operation)],
+        window=window,
+    )
+    return run.goals
