@@ -11,6 +11,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "catalogue": ["EXPERIMENTS", "reproduce"],
         "guides": ["BETAS", "SHARES", "make_guides"],
         "claims": ["CLAIMS", "ledger"],
+        "controls": ["controls_table"],
+        "evidence": ["evidence_table"],
         "verdicts": ["combine", "judge"],
         "tables": ["measures_table", "to_markdown", "totals_table"],
     },
