@@ -43,7 +43,7 @@ class Entry(NamedTuple):
 CLAIMS = (
     Claim(
         "1",
-        "ND transfers best, though it drives worst",
+        "ND transfers best, though by value it drives worst",
         "Despite the policy pi_AbsND has shown the worst performance when executed "
         "in the environment [...], it proved better than the other policies when it "
         "was used for transfer learning",
