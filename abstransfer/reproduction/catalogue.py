@@ -145,6 +145,22 @@ _SECOND_EDITION = (
 EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION
 
 
+def in_place_of_target(target: str) -> tuple[Experiment | Operated, ...]:
+    """
+    Return what the book does in its target, to be done in another building.
+
+    For whoever has the paper's own map, or draws one; `target` is its name or file.
+
+    >>> {experiment.target for experiment in in_place_of_target("source")}
+    {'source'}
+    """
+    return tuple(
+        experiment._replace(target=target)
+        for experiment in EXPERIMENTS
+        if experiment.target == "target"
+    )
+
+
 def reproduce(
     out: str | Path,
     *,

@@ -14,6 +14,7 @@ from abstransfer.experiments.results import read_results, stored_results
 from abstransfer.learning import q_learning
 from abstransfer.reproduction.catalogue import (
     EXPERIMENTS,
+    in_place_of_target,
     reproduce,
 )
 from abstransfer.reproduction.figures import make_figures
@@ -180,3 +181,14 @@ def test_guides_of_ones_own_are_left_out_of_the_papers_figures(tmp_path):
         reproduce(tmp_path, experiments=[study], scale=SMALL, executor=executor)
 
     assert make_figures(tmp_path, tmp_path / "out") == []
+
+
+def test_all_that_is_done_in_the_target_can_be_done_in_another_building():
+    """Grids and what they tune keep their folders, so one finds the other."""
+    there = {one.folder: one for one in in_place_of_target("target_b")}
+    here = {one.folder: one for one in EXPERIMENTS if one.target == "target"}
+
+    assert there.keys() == here.keys()
+    assert {one.target for one in there.values()} == {"target_b"}
+    assert there["goal-target-tuned"].tuned_by == "goal-target-tau"
+    assert "operations-target" in there
