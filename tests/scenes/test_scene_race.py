@@ -9,6 +9,7 @@ from run_scenes import SHORT, python_run
 from abstransfer.abstraction import LABELS
 from abstransfer.experiments.arms import ARMS
 from abstransfer.experiments.problem import build_guides, target_tasks
+from abstransfer.experiments.results import read_results
 from abstransfer.scenes import Race
 
 NAMES = {"none": "Q-learning", "rand": "wanderer", "prob": "Prob", "nd": "ND"}
@@ -60,6 +61,18 @@ def test_the_still_picture_says_who_won(race, runs):
         f"{total:,}" for total in sorted(totals.values(), reverse=True)
     ]
     assert still.rows[0][0] == "ND (N)"
+
+
+def test_what_needs_no_other_building_stands_beside_what_advice_is_worth(race):
+    told = read_results("controls-target").totals("eager-hard").mean()
+    nd = read_results("goal-target").totals("nd-hard").mean()
+
+    assert f"reaches, in 30 million steps, {told:,.0f} on average" in (
+        race.still().caption
+    )
+    assert told > 0.95 * nd, "or the scene may not say that it comes as far"
+    other = Race(steps=SHORT, map="target_b").still()
+    assert "on average" not in other.caption, "a control is of its building"
 
 
 def test_stored_results_are_those_of_q_learning():
@@ -154,6 +167,7 @@ def test_by_mouse_to_the_end_with_pythons_numbers(show, race, runs):
     assert all(f"{NAMES[n]} {total:,}" in scene.closing for n, total in totals.items())
     for name, run in runs.items():
         assert scene.column(NAMES[name]) == run.goals.tolist()
+    assert "a robot that is told only what can be done here" in scene.closing
     assert scene.root.locator(".ab-line").count() == 4
     assert scene.violations() == []
     assert scene.problems == []

@@ -213,7 +213,11 @@ defineScene("race", {
         `${
           Number.isFinite(ratio) ? `, ${number(ratio, 2)} times as many as without advice` : ""
         }. ` +
-        `They reached: ${list(order.map(({ name, total }) => `${name} ${count(total)}`))}.`
+        `They reached: ${list(order.map(({ name, total }) => `${name} ${count(total)}`))}.` +
+        (["map", "source"].every((key) => scene.state[key] === scene.spec.state[key])
+          ? " Before you take that for the worth of another building: in 30 million steps a robot " +
+            "that is told only what can be done here comes as far as ND's."
+          : "")
       ).trim();
     }
 

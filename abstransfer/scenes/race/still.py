@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ...experiments.problem import target_tasks
+from ...experiments.problem import Problem, target_tasks
+from ...experiments.results import read_results
 from ...plotting.buildings import place
 from ..base import Still
 from ..parts.building import draw_building
@@ -28,6 +29,13 @@ def draw(scene: Race) -> Still:
         f"{steps / 1e6:g} million steps, with the luck of run {scene.luck}, the robot "
         f"that {GOT.get(best, f'{NAMES[best]} advised')} reached most goals: {each}."
     )
+    if scene.problem == Problem():
+        told = read_results("controls-target").totals("eager-hard").mean()
+        caption += (
+            " Before you take that for the worth of another building: a robot that is "
+            "told only what can be done here reaches, in 30 million steps, "
+            f"{told:,.0f} on average."
+        )
     curves = {NAMES[name]: (name, goals) for name, goals in runs.items()}
     alt = f"Goals in {steps / 1e6:g} million steps: {each}."
     frames = [*_moments(scene), learning_curves(curves, alt, steps=steps)]
