@@ -1,0 +1,54 @@
+"""Hypotheses before results: the project's history says so, and the files agree."""
+
+import shutil
+import subprocess
+
+import pytest
+from support import ROOT
+
+from abstransfer.reproduction.catalogue import EXPERIMENTS
+from abstransfer.reproduction.hypotheses import RULES, judge_hypotheses, predictions
+
+SECOND = [
+    one.folder
+    for one in EXPERIMENTS
+    if one.folder.startswith(
+        ("controls", "compass", "masked", "traps", "operations", "drawn", "study-own")
+    )
+]
+
+
+def git(*arguments):
+    """What git prints, by line."""
+    said = subprocess.run(
+        ["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    return said.stdout.split()
+
+
+@pytest.fixture(scope="module")
+def history():
+    """Commits of the text; skipped in a copy that has no history, or not all."""
+    if not (ROOT / ".git").exists() or not shutil.which("git"):
+        pytest.skip("no history here")
+    if git("rev-parse", "--is-shallow-repository") == ["true"]:
+        pytest.skip("a copy without its whole history")
+    return git("log", "--format=%H", "--reverse", "--", "data/hypotheses.md")
+
+
+@pytest.mark.parametrize("folder", SECOND)
+def test_the_hypotheses_were_last_changed_before_the_results_came(history, folder):
+    came = git("log", "--format=%H", "--reverse", "--", f"data/results/{folder}")[0]
+
+    for commit in history:
+        subprocess.run(
+            ["git", "merge-base", "--is-ancestor", commit, came], cwd=ROOT, check=True
+        )
+        assert commit != came
+
+
+def test_every_hypothesis_has_its_row_and_is_judged():
+    said, judged = predictions(), judge_hypotheses()
+
+    assert said.keys() == judged.keys() == RULES.keys()
+    assert all(found.parts for found in judged.values())
