@@ -431,7 +431,7 @@ def places_table(judged: Mapping[str, Judged]) -> list[dict]:
     said, rows = predictions(), []
     for key, found in judged.items():
         claim, _, predicted, known = said[key]
-        row = {"": key, "claim": claim, "predicted": predicted}
+        row = {"key": key, "claim": claim, "predicted": predicted}
         row |= {"known before": known or "nothing", "verdict": found.verdict}
         for part in found.parts:
             text = f"{_told(part)}: {part.verdict}"
