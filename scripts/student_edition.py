@@ -4,9 +4,13 @@ Write the student edition of the notebooks: blanks instead of solutions.
     python scripts/student_edition.py OUT
 
 One source serves both editions.  In a solution's code, a statement that ends with
-``# blank`` is what a student writes; here ``...`` takes its place.  The rest of the
-solution, its text and its cells without a blank, is left out.  An open exercise, of
-which no cell would stay, gets an empty one that says so.
+``# blank`` is what a student writes; here ``...`` takes its place.  Of such a cell stay
+definitions, what has a name, and ``check``: what prints or loops would tell the answer,
+or fail on a blank.  The rest of the solution, its text and its cells without a blank,
+is left out.  Each exercise ends with a ``check``; that of an open one takes words.
+
+The text is plain Markdown (`plain_markdown`), and the first line of code says whose
+work it is.
 """
 
 from __future__ import annotations
@@ -19,11 +23,15 @@ import sys
 from pathlib import Path
 
 import nbformat
+from plain_markdown import Course, plain, read_course
 
 BOOK = Path(__file__).parents[1] / "book"
+WHOSE = 'student = "..."  # your name'
+IMPORT = "from abstransfer.exercises import check"
 OPEN = """\
-# An open exercise, without a check: your code.
-# at.exercises.check("{key}") gives a hint."""
+# What you found, in words; code in cells of its own, above.
+answer = ...
+check("{key}", answer)"""
 MARK = re.compile(r"#\s*blank\s*$", re.MULTILINE)
 BARE_TWICE = re.compile(r"^( *)\.\.\.(?:\n\1\.\.\.)+$", re.MULTILINE)
 START = re.compile(
@@ -32,46 +40,66 @@ START = re.compile(
 END = re.compile(r"^(`{3,})\{solution-end\}[^\S\n]*\n\1[^\S\n]*$", re.M)
 
 
-def student_edition(notebook):
+def student_edition(notebook, course: Course):
     """Return a copy of a notebook for students."""
     notebook = copy.deepcopy(notebook)
-    cells, in_solution, has_blank, key = [], False, False, ""
+    cells, in_solution, key, asked = [], False, "", ""
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
-            if in_solution and not has_blank and END.search(cell.source):
-                text = OPEN.format(key=key)
-                cells.append(nbformat.v4.new_code_cell(text, id=f"open-{cell.id}"))
-            for start in START.finditer(cell.source):
-                key, has_blank = start[2], False
-            cell.source, in_solution = without_solutions(cell.source, in_solution)
-            keep = bool(cell.source)
+            found = enumerate(pieces(cell.source, in_solution))
+            for i, (text, in_solution, edge) in found:
+                shown = "" if in_solution else plain(text, course)
+                if shown:
+                    more = nbformat.v4.new_markdown_cell(shown, id=f"{cell.id}-{i}")
+                    cells.append(more)
+                if edge and not in_solution:
+                    key, asked = edge[2], ""
+                elif edge and not _has(cells, name := f'check("{key}"'):
+                    text = _line_with(name, asked) or OPEN.format(key=key)
+                    more = nbformat.v4.new_code_cell(text, id=f"check-{key}")
+                    cells.append(more)
         elif in_solution:
-            keep = bool(MARK.search(cell.source))
-            has_blank |= keep
-            cell.source = stub(cell.source)
-            cell.outputs, cell.execution_count = [], None
-            cell.metadata.pop("jupyter", None)  # a solution is folded, a blank not
+            asked += cell.source + "\n"
+            if MARK.search(cell.source):
+                cell.source = kept(stub(cell.source))
+                cell.outputs, cell.execution_count = [], None
+                cell.metadata.pop("jupyter", None)  # a solution is folded, a blank not
+                cells.append(cell)
         else:
-            keep = True
-        if keep:
             cells.append(cell)
     if in_solution:
         raise ValueError("a solution starts and does not end")
+    if key:
+        text = WHOSE if _has(cells, IMPORT) else f"{WHOSE}\n\n{IMPORT}"
+        cells.insert(1, nbformat.v4.new_code_cell(text, id="student"))
     notebook.cells = cells
     return notebook
 
 
+def _has(cells: list, code: str) -> bool:
+    return any(cell.cell_type == "code" and code in cell.source for cell in cells)
+
+
+def _line_with(start: str, text: str) -> str:
+    """Return the first line that begins so, or nothing."""
+    return next((line for line in text.split("\n") if line.startswith(start)), "")
+
+
+def pieces(text: str, inside: bool):
+    """Yield a text piece by piece: it, whether in a solution, the edge at its end."""
+    while True:
+        edge = (END if inside else START).search(text)
+        yield (text[: edge.start()] if edge else text), inside, edge
+        if not edge:
+            return
+        inside, text = not inside, text[edge.end() :]
+
+
 def without_solutions(text: str, inside: bool) -> tuple[str, bool]:
     """Return text without solutions, and whether one is still open at its end."""
-    kept = ""
-    while text:
-        edge = (END if inside else START).search(text)
-        if not inside:
-            kept += text[: edge.start()] if edge else text
-        if not edge:
-            break
-        inside, text = not inside, text[edge.end() :]
-    return kept.strip(), inside
+    found = list(pieces(text, inside))
+    kept = "".join(piece for piece, is_solution, _ in found if not is_solution)
+    return kept.strip(), found[-1][1]
 
 
 def stub(source: str) -> str:
@@ -89,6 +117,24 @@ def stub(source: str) -> str:
         text = " " * node.col_offset + _as_blank(node, source)
         lines[node.lineno - 1 : node.end_lineno] = [text]
     return BARE_TWICE.sub(r"\1...", "\n".join(lines))  # one blank for several
+
+
+def kept(source: str) -> str:
+    """
+    Return a stub without what runs at once and is no ``check``.
+
+    >>> print(kept("y = ...\\nprint(-y)\\ncheck('ex-1-1', y)"))
+    y = ...
+    check('ex-1-1', y)
+    """
+    lines = source.split("\n")
+    for node in reversed(ast.parse(source).body):
+        text = ast.get_source_segment(source, node)
+        runs = isinstance(node, ast.Expr | ast.For | ast.While | ast.If | ast.With)
+        if runs and text != "..." and not text.startswith("check("):
+            blank = ["..."] if re.search(r"(?<!\.)\.\.\.(?!\.)", text) else []
+            lines[node.lineno - 1 : node.end_lineno] = blank
+    return re.sub(r"\n{4,}", "\n\n\n", "\n".join(lines)).strip()
 
 
 def _blanks(body: list, marked: set[int]) -> list[ast.stmt]:
@@ -123,8 +169,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("out", type=Path, help="folder to write the notebooks to")
     out = parser.parse_args(arguments).out
     out.mkdir(parents=True, exist_ok=True)
+    course = read_course(BOOK)
     for path in sorted(BOOK.glob("*.ipynb")):
-        notebook = student_edition(nbformat.read(path, as_version=4))
+        notebook = student_edition(nbformat.read(path, as_version=4), course)
         nbformat.write(notebook, out / path.name)
     print(f"The student edition is in {out}")
     return 0

@@ -19,7 +19,7 @@ from ._model import (
     open_exercises_of,
     page_of,
 )
-from ._read import SIGNS, Unreadable, short
+from ._read import SIGNS, Unreadable, blank, short
 from ._run import Heard, run
 from ._values import judge_value, readings
 
@@ -108,10 +108,11 @@ def check(key: str, answer=NOT_GIVEN) -> Reply:
         return Reply(short(key, 40), "not checked", _unknown(key))
     if answer is NOT_GIVEN:
         return Reply(key, "hint", _next_hint(exercise))
-    if isinstance(exercise, Open):
-        words = f"An open exercise has no check. A good answer holds: {exercise.good}."
-        return Reply(key, "not checked", words)
     try:
+        if isinstance(exercise, Open):
+            blank(None if answer == "" else answer)
+            words = "An open exercise has no check. A good answer holds: "
+            return Reply(key, "not checked", f"{words}{exercise.good}.")
         verdict = _judge(exercise, answer)
     except Unreadable as reason:
         words = f"{reason}.".replace("?.", "?")

@@ -1,19 +1,24 @@
 """The student edition: each stub is its solution but for the blanks."""
 
+import ast
 import json
 import re
 
 import nbformat
 import pytest
 import student_edition
+from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
-from student_edition import MARK, stub, without_solutions
+from plain_markdown import Course, plain, read_course
+from student_edition import MARK, kept, stub, without_solutions
 from support import ROOT
 
-from abstransfer.exercises import all_exercises
+from abstransfer.exercises import all_exercises, all_open_exercises
 
 PAGES = sorted((ROOT / "book").glob("*.ipynb"))
 KNOWN = {exercise.key: exercise for exercise in all_exercises()}
+OPEN = {exercise.key: exercise for exercise in all_open_exercises()}
+COURSE = read_course(ROOT / "book")
 CHECKED = re.compile(r'^check\("([^"]+)"', re.MULTILINE)
 
 STUB = re.compile(  # an exercise's label, and the code that is shown in it
@@ -70,34 +75,106 @@ def test_text_of_solutions_is_left_out_and_the_rest_is_kept():
 
 def test_cells_of_a_solution_are_stubs_or_left_out():
     given = new_code_cell("print(1)", outputs=[])
-    blank = new_code_cell("y = 2  # blank\ncheck('ex-1-1', y)", execution_count=3)
+    blank = new_code_cell('y = 2  # blank\ncheck("ex-1-1", y)', execution_count=3)
     blank.metadata["jupyter"] = {"source_hidden": True}
     blank.outputs = [nbformat.v4.new_output("stream", text="right")]
     cells = [given, new_markdown_cell(BEFORE), blank, new_code_cell("print(y)")]
 
     edition = student_edition.student_edition(
-        new_notebook(cells=[*cells, new_markdown_cell(AFTER)])
+        new_notebook(cells=[*cells, new_markdown_cell(AFTER)]), COURSE
     )
 
     sources = [cell.source for cell in edition.cells]
-    assert [sources[0], *sources[2:]] == [
+    assert [*sources[:2], *sources[3:]] == [
         "print(1)",
-        "y = ...\ncheck('ex-1-1', y)",
+        f"{student_edition.WHOSE}\n\n{student_edition.IMPORT}",
+        'y = ...\ncheck("ex-1-1", y)',
         "## Next",
     ]
-    assert edition.cells[2].outputs == []
-    assert edition.cells[2].metadata == {}
+    assert edition.cells[3].outputs == []
+    assert edition.cells[3].metadata == {}
     assert blank.outputs, "the full edition is not touched"
 
 
-def test_an_open_exercise_gets_an_empty_cell_that_says_so():
+def test_an_open_exercise_gets_a_cell_for_words():
     shown = new_code_cell("print(4)", outputs=[])
     cells = [new_markdown_cell(BEFORE), shown, new_markdown_cell(AFTER)]
 
-    edition = student_edition.student_edition(new_notebook(cells=cells))
+    edition = student_edition.student_edition(new_notebook(cells=cells), COURSE)
 
-    assert [c.cell_type for c in edition.cells] == ["markdown", "code", "markdown"]
-    assert edition.cells[1].source == student_edition.OPEN.format(key="ex-1-1")
+    kinds = [cell.cell_type for cell in edition.cells]
+    assert kinds == ["markdown", "code", "code", "markdown"]
+    assert edition.cells[2].source == student_edition.OPEN.format(key="ex-1-1")
+
+
+def test_a_check_of_a_cell_that_is_left_out_stays():
+    """As where a solution tries a function before it is checked."""
+    made = new_code_cell("def f(x):\n    return x  # blank", outputs=[])
+    tried = new_code_cell('print(f(2))\ncheck("ex-1-1", f)', outputs=[])
+    cells = [new_markdown_cell(BEFORE), made, tried, new_markdown_cell(AFTER)]
+
+    edition = student_edition.student_edition(new_notebook(cells=cells), COURSE)
+
+    assert [cell.source for cell in edition.cells][2:4] == [
+        "def f(x):\n    return ...",
+        'check("ex-1-1", f)',
+    ]
+
+
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        ("x = ...\nprint(-x)", "x = ..."),
+        ("for i in x:\n    y = ...\n    print(y.sum())", "..."),
+        ("for i in x:\n    print(i)\ny = ...", "y = ..."),
+        ('def f():\n    print(1)\n\n\nf()\ncheck("ex-1-1", f)',
+         'def f():\n    print(1)\n\n\ncheck("ex-1-1", f)'),
+    ],
+)  # fmt: skip
+def test_what_would_tell_or_fail_is_left_out(code, expected):
+    assert kept(code) == expected
+
+
+# Plain Markdown
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("(page-x)=\n# Title", "# Title"),
+        ("```{math}\n:label: eq-rho\nx\n```", "$$\nx\n\\tag{7}\n$$"),
+        ("```{math}\nx\n```", "$$\nx\n$$"),
+        ("see {eq}`eq-rho`, {ref}`exercise 1 <ex-0-1>`", "see (7), exercise 1"),
+        ("{doc}`00_race`; {doc}`notation`; {doc}`it <00_race>`",
+         "[The race](00_race.ipynb); *Words*; [it](00_race.ipynb)"),
+        ("{cite}`me`, {cite:t}`me`, {term}`sweeps <sweep>`",
+         "(Me, 2015), Me (2015), sweeps"),
+        ("{func}`~abstransfer.race`", "`abstransfer.race`"),
+        ('(<a href="#race.t=1">step 1</a>)', "(step 1)"),
+        ("```{admonition} Bet\n:class: important\n:name: bet-0-a\nWho?\n\n* I\n```",
+         "> **Bet**\n>\n> Who?\n>\n> * I"),
+        ("```{admonition} The bet: who\n:name: reply-0-a\n\n**I.**\n```",
+         "<details>\n<summary>The bet: who</summary>\n\n**I.**\n\n</details>"),
+        ("````{admonition} For the lecturer\n:class: note, dropdown\n42\n````", ""),
+        ("```{exercise-start}\n:label: ex-3-1\n```\nWhat?\n```{exercise-end}\n```",
+         "### Exercise 3.1\nWhat?"),
+        ("````{admonition} A\n```{dropdown} B\nC\n```\n````",
+         "> **A**\n>\n> <details>\n> <summary>B</summary>\n>\n> C\n>\n> </details>"),
+        ("    {not: `a role`}\n\n```python\nx\n```",
+         "{not: `a role`}\n\n```python\nx\n```"),
+    ],
+)  # fmt: skip
+def test_every_form_of_a_page_has_a_plain_one(text, expected):
+    titles = {"00_race": "The race", "notation": "Words"}
+    works = {"me": ("Me", "2015")}
+
+    assert plain(text, Course(titles, {"00_race"}, {"eq-rho": 7}, works)) == expected
+
+
+@pytest.mark.parametrize("text", ["```{video} x\n```", "{sub}`2`"])
+def test_a_form_that_is_not_known_is_refused_by_name(text):
+    with pytest.raises(ValueError, match=r"no plain form for the \w+ \{(video|sub)\}"):
+        plain(text, COURSE)
 
 
 @pytest.fixture(params=PAGES, ids=lambda path: path.stem)
@@ -131,14 +208,112 @@ def test_a_stub_shown_in_an_exercise_is_that_of_its_solution(page):
     assert not shown, "a stub without a solution that is checked"
 
 
-def test_the_student_edition_of_a_page_holds_no_solution(page):
-    edition = student_edition.student_edition(page)
-    text = json.dumps(edition)
+@pytest.fixture
+def edition(page):
+    return student_edition.student_edition(page, COURSE)
 
-    assert "{solution-" not in text
+
+def prose(notebook):
+    cells = (cell for cell in notebook.cells if cell.cell_type == "markdown")
+    return "\n\n".join(cell.source for cell in cells)
+
+
+def keys_of(notebook):
+    """Return the exercises that cells check, in order."""
+    cells = (cell for cell in notebook.cells if cell.cell_type == "code")
+    return [key for cell in cells for key in CHECKED.findall(cell.source)]
+
+
+def test_the_student_edition_of_a_page_is_plain_markdown(edition):
+    text = re.sub(r"^```(?s:.*?)^```$|^    .*$", "", prose(edition), flags=re.M)
+
+    assert not re.search(r"\{[a-z][\w:-]*\}`|^(`{3,}|:{3,})|^\([\w-]+\)=", text, re.M)
+    assert not re.search(r"^:[\w-]+:|^%|\\label\{|\(#", text, re.M)
+    for fold in ("<details>", "<summary>"):
+        assert text.count(fold) == text.count(fold.replace("<", "</"))
+    for line in re.findall(r"^.*\$\$.*$", text, re.M):
+        assert line == "$$", "an equation stands alone, in no box"
+    assert text.count("$$") % 2 == 0
+
+
+def test_links_of_the_student_edition_lead_to_its_pages(edition):
+    for target in re.findall(r"\]\(([^)]*)\)", prose(edition)):
+        assert target in {path.name for path in PAGES}
+
+
+def solutions_of(page):
+    """Return the sentences of a page's solutions and of its box for lecturers."""
+    text = prose(page)
+    boxes = re.findall(
+        r"^````\{admonition\} For the lecturer.*?^````$", text, re.S | re.M
+    )
+    left = [match[0] for match in re.finditer(
+        r"^```\{solution-start\}.*?^```\{solution-end\}", text, re.S | re.M
+    )]  # fmt: skip
+    lines = "\n".join([*boxes, *left]).split("\n")
+    return {
+        line for line in lines if len(line) > 30 and not line.startswith(("`", ":"))
+    }
+
+
+def test_the_student_edition_of_a_page_holds_no_solution(page, edition):
+    text = prose(edition)
+    for sentence in solutions_of(page):
+        assert plain(sentence, COURSE) not in text
+
     assert not MARK.search("\n".join(cell.source for cell in edition.cells))
-    assert text.count("{exercise-start}") == json.dumps(page).count("{exercise-start}")
+    assert "For the lecturer" not in text
     assert len(edition.cells) >= len(page.cells) / 2
+
+
+def test_each_question_has_a_blank_and_a_check(page, edition):
+    labels = re.findall(r"^:label: (ex-[\w-]+)$", prose(page), re.M)
+    wanted = sorted({*labels, *keys_of(page)})
+
+    assert sorted(keys_of(edition)) == wanted
+    assert re.findall(r"^### Exercise (.*)$", prose(edition), re.M) == [
+        label.removeprefix("ex-").replace("-", ".") for label in labels
+    ]
+
+
+def test_cells_beside_a_blank_neither_tell_nor_fail(edition):
+    """Below the first exercise only blanks run, and only `check` uses them."""
+    at = [i for i, cell in enumerate(edition.cells) if "### Exercise" in cell.source]
+    for cell in edition.cells[at[0] :] if at else ():
+        if cell.cell_type != "code":
+            continue
+        assert not cell.outputs
+        unanswered = set()
+        for node in ast.parse(cell.source).body:
+            is_check = ast.unparse(node).startswith("check(")
+            names = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+            if isinstance(node, ast.Assign) and ast.unparse(node.value) == "...":
+                unanswered |= names
+            elif not is_check:
+                assert not names & unanswered
+            is_kept = (ast.Assign, ast.FunctionDef, ast.Import, ast.ImportFrom)
+            assert is_check or isinstance(node, is_kept) or ast.unparse(node) == "..."
+
+
+def test_no_number_to_find_stands_in_its_cell(edition):
+    for cell in edition.cells if edition.cells else ():
+        for key in CHECKED.findall(cell.source) if cell.cell_type == "code" else ():
+            solution = KNOWN[key].solution if key in KNOWN else None
+            if isinstance(solution, float | int):
+                told = re.findall(r"-?\d+\.?\d*", cell.source.partition("check(")[0])
+                assert not {x for x in told if abs(float(x) - solution) < 1e-3}
+
+
+def test_run_all_without_an_answer_gives_words():
+    path = ROOT / "book" / "02_solving.ipynb"
+    edition = student_edition.student_edition(nbformat.read(path, 4), COURSE)
+    kernel = {"metadata": {"path": path.parent}}
+    NotebookClient(edition, timeout=600, resources=kernel).execute()
+
+    said = json.dumps([cell.get("outputs") for cell in edition.cells])
+    for key in ("ex-2-1", "ex-2-2", "ex-2-3", "ex-2-4"):
+        assert re.search(rf"\*\*{key}: no(t| answer) yet\.\*\*", said)
+    assert "A good answer holds" not in said
 
 
 def test_every_exercise_that_is_checked_is_known_and_answered_rightly(page, request):

@@ -194,6 +194,8 @@ def test_an_open_exercise_gets_its_hints_in_turn_and_what_a_good_answer_holds():
         assert not told
         assert told.verdict == "not checked"
         assert told.text.startswith("An open exercise has no check.")
+        for blank in (..., None, ""):
+            assert check(exercise.key, blank).verdict == "no answer yet"
         assert exercise.good in told.text
 
 
