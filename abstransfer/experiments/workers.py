@@ -106,6 +106,9 @@ def run_jobs(
         finally:
             for future in futures:
                 future.cancel()
+    from ..learning._runs import say_if_compiling  # which workers leave to us
+
+    say_if_compiling()
     # Not fork: it would copy threads in an unknown state.
     context = multiprocessing.get_context("spawn")
     reader, writer = context.Pipe(duplex=False)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from functools import cache
+from multiprocessing import parent_process
 from pathlib import Path
 from typing import NamedTuple
 
@@ -126,8 +127,13 @@ class Together:
 
 @cache
 def say_if_compiling() -> None:
-    """Say on stderr that the first call takes longer, where no cache is found."""
-    if "ipykernel" in sys.modules:  # a notebook shows that it works, and stores words
+    """
+    Say on stderr that the first call takes longer, where no cache is found.
+
+    Silent in a notebook, which shows that it works and stores words, and in worker
+    processes, for which their parent speaks once.
+    """
+    if "ipykernel" in sys.modules or parent_process():
         return
     stats = getattr(_fast.advance_one, "stats", None)
     if stats is None:

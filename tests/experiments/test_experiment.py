@@ -4,13 +4,15 @@ import gzip
 import json
 import os
 import socket
+import subprocess
+import sys
 import threading
 import tracemalloc
 from concurrent.futures import Executor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from support import NoExecutor, unavailable
+from support import ROOT, NoExecutor, unavailable
 
 from abstransfer import read_map
 from abstransfer.driving import advised, executed_values
@@ -88,6 +90,29 @@ def test_each_run_is_the_one_that_its_seed_and_arm_make(expected):
 @pytest.mark.parametrize("n_workers", [1, 2])
 def test_the_number_of_processes_does_not_matter(n_workers, expected):
     np.testing.assert_array_equal(run(n_workers=n_workers).goals, expected.goals)
+
+
+@pytest.mark.slow
+def test_workers_leave_it_to_their_parent_to_say_that_it_compiles(tmp_path):
+    code = (
+        "from abstransfer.experiments.arms import ARMS, Scale\n"
+        "from abstransfer.experiments.run import run_experiment\n"
+        "if __name__ == '__main__':\n"
+        "    tiny = Scale(steps=1_000, window=500)\n"
+        "    run_experiment(ARMS[:2], n_runs=1, n_workers=2, scale=tiny)\n"
+    )
+    script = tmp_path / "two.py"
+    script.write_text(code, encoding="utf-8")
+
+    done = subprocess.run(
+        [sys.executable, script],
+        env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
+
+    assert done.stderr.count("compiling the learning loops") == 1
 
 
 def test_the_order_of_jobs_does_not_matter(expected):
