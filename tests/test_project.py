@@ -24,6 +24,7 @@ COMES_WITH = {
     "docutils": "jupyter-book",
     "nbclient": "jupyter-book",
     "nbformat": "jupyter-book",
+    "pybtex": "jupyter-book",
     "pyyaml": "jupyter-book",
     "sphinx": "jupyter-book",
 }

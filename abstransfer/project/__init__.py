@@ -8,5 +8,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "racing": ["Race", "race"],
         "setup": ["Setup", "drives", "run"],
         "card": ["card_text", "verify"],
+        "student": ["building_of", "seed_of"],
     },
 )

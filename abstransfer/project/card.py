@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..abstraction import FEATURES
-from ..experiments.plan import SEED
 from ..maps import parse_map
 from .racing import Race
 from .setup import GUIDES, Setup, column_of, run, scale
+from .student import written
 
 TITLE = "# Result card"
 COUNTS = ("cells", "rooms", "goals", "abstract_states")
@@ -44,7 +44,8 @@ def card_text(
     """
     found, (steps, tau) = column_of(setup, own=own), scale(setup.map)
     seen = "all" if setup.features == FEATURES else ", ".join(setup.features) or "none"
-    settings = {
+    whose = {"Student": written(setup.student)} if setup.student else {}
+    settings = whose | {
         "Building": ", ".join(f"{found[n]} {n.replace('_', ' ')}" for n in COUNTS),
         "Advice from": setup.advice,
         "Features": seen,
@@ -52,7 +53,7 @@ def card_text(
         "Steps": steps,
         "Tau": tau,
         "Lives": setup.runs,
-        "Seed": SEED,
+        "Seed": setup.seed,
     }
     head = (*HEAD, *(f"life {i + 1}" for i in range(setup.runs)))
     rows = [head, ["---"] * len(head)]
@@ -121,10 +122,12 @@ def _setup(lines: list[tuple[int, str]]) -> Setup:
     """Return what a card says was raced; what it lacks is named."""
     first, bare = lines[0][0], [line for _, line in lines]
 
-    def of(name):
+    def of(name, otherwise=None):
         for number, line in lines:
             if line.startswith(f"- {name}: "):
                 return number, line.split(": ", 1)[1]
+        if otherwise is not None:
+            return first, otherwise
         raise ValueError(f"line {first}: the card must hold '- {name}: ...'")
 
     if "```text" not in bare or "```" not in bare:
@@ -143,7 +146,8 @@ def _setup(lines: list[tuple[int, str]]) -> Setup:
     raced = tuple(row[0] for row in table if row[-1].isdecimal() and row[0] != "none")
     map_ = parse_map("\n".join(bare[above + 1 : below]))
     strategy, advice = of("Strategy")[1], of("Advice from")[1]
-    return Setup(map_, features, raced, advice, strategy, columns)
+    student = of("Student", "")[1]
+    return Setup(map_, features, raced, advice, strategy, columns, student)
 
 
 def _verified(lines: list[tuple[int, str]], own: Mapping) -> Verified:

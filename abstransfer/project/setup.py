@@ -16,11 +16,13 @@ from ..abstraction import FEATURES
 from ..builders import BUILDERS, abstract_policies
 from ..driving import column
 from ..experiments.arms import PAPER_STEPS
+from ..experiments.plan import SEED
 from ..learning.settings import STRATEGIES, choice
 from ..maps import Map, read_map
 from ..navigation import NavigationTasks, navigation_tasks
 from ..policies import uniform_policy
 from .racing import Race, race
+from .student import seed_of
 
 GUIDES = (*BUILDERS, "eager", "rand")
 ADVICE = ("source", "target", "own")
@@ -37,6 +39,12 @@ class Setup(NamedTuple):
     advice: str = "source"  #: building the advice comes from; "own" is the map itself
     strategy: str = "hard"  #: "hard" or "soft"
     runs: int = 5  #: of each robot
+    student: str = ""  #: whose work it is; the seed follows from it
+
+    @property
+    def seed(self) -> int:
+        """The seed of all runs: the student's, or else the book's."""
+        return seed_of(self.student) if self.student else SEED
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -80,7 +88,7 @@ def run(setup: Setup, own: Mapping[str, np.ndarray] | None = None) -> Race:
     choice("strategy", setup.strategy, STRATEGIES)
     tasks = navigation_tasks(setup.map, reward="goal", features=setup.features)
     steps, tau = scale(setup.map)
-    options = {"strategy": setup.strategy, "n_runs": setup.runs}
+    options = {"strategy": setup.strategy, "n_runs": setup.runs, "seed": setup.seed}
     return race(tasks, policies(setup, tasks, own), steps=steps, tau=tau, **options)
 
 

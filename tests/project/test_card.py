@@ -17,7 +17,8 @@ from abstransfer.abstraction import FEATURES
 from abstransfer.learning import q_learning
 from abstransfer.project.card import card_text, verify
 from abstransfer.project.racing import race
-from abstransfer.project.setup import Setup, run
+from abstransfer.project.setup import Setup, run, scale
+from abstransfer.project.student import building_of, seed_of
 
 ROOMS = parse_map(
     "+-----+-----+\n"
@@ -229,6 +230,44 @@ def test_advice_of_ones_own_is_handed_in_beside_the_card(card):
 
     assert found.setup == setup
     assert rows["| common sense"] == rows["| eager"]
+
+
+def test_the_seed_and_the_building_of_a_card_are_the_students():
+    setup = SETUP._replace(student="Zoë Ångström")
+    text = card_text(setup, run(setup).goals)
+    seed = seed_of("Zoë Ångström")
+    alone = race(
+        navigation_tasks(SMALL, reward="goal", features=SETUP.features),
+        {},
+        steps=scale(SMALL)[0],
+        tau=0,
+        n_runs=2,
+        seed=seed,
+    )
+
+    assert "- Student: Zoë Ångström\n- Building: 4 cells" in text
+    assert f"- Seed: {seed}\n" in text
+    assert run(setup).goals["none"].tolist() == alone.goals["none"].tolist()
+    assert [found.setup for found in verify(quoted(text))] == [setup]
+    for wrong in (text.replace("Zoë", "Bob"), text.replace(f"Seed: {seed}", "Seed: 1")):
+        with pytest.raises(ValueError, match="^line 11: the card says '- Seed: "):
+            verify(wrong)
+
+
+def test_a_name_is_one_however_it_is_typed_and_each_has_its_building():
+    names = ["Ann Lee", "Ann Li", "Bob", "Zoë", "李雷"]
+
+    assert len({seed_of(name) for name in names}) == len(names)
+    assert len({str(building_of(name)) for name in names}) == len(names)
+    for typed in ("ann lee", "  Ann\tLee ", "ANN LEE"):
+        assert seed_of(typed) == seed_of("Ann Lee")
+    assert seed_of("Zoe\u0308") == seed_of("Zo\xeb")
+
+
+@pytest.mark.parametrize("name", ["...", " ", "", 5, None])
+def test_without_a_name_there_is_no_seed(name):
+    with pytest.raises(ValueError, match="student must be"):
+        seed_of(name)
 
 
 def test_a_race_without_a_goal_has_no_gain():
