@@ -16,10 +16,12 @@ from ._model import (
     exercises_of,
     open_exercises_of,
 )
+from ._predict import Prediction, predict
 
 __all__ = [
     "Exercise",
     "Open",
+    "Prediction",
     "Reply",
     "Wrong",
     "all_exercises",
@@ -27,4 +29,5 @@ __all__ = [
     "check",
     "exercises_of",
     "open_exercises_of",
+    "predict",
 ]
