@@ -40,6 +40,7 @@ ABOVE = (
     "gymnasium.py",
     "scenes/",
     "exercises/",
+    "classroom/",
     "cli/",
 )
 SILENT = {

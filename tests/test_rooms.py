@@ -14,7 +14,8 @@ PACKAGE = Path(abstransfer.__file__).parent
 # reproduction, because that draws figures.
 ORDER = ["_paths", "foreign", "maps", "mdp", "abstraction", "navigation", "solvers"]
 ORDER += ["policies", "builders", "driving", "learning", "experiments", "plotting"]
-ORDER += ["reproduction", "project", "gymnasium", "scenes", "exercises", "cli"]
+ORDER += ["reproduction", "project", "gymnasium", "scenes", "exercises"]
+ORDER += ["classroom", "cli"]
 ORDER += ["__main__", "__init__"]
 
 

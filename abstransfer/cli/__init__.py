@@ -13,7 +13,10 @@ import os
 import signal
 import sys
 
-COMMANDS = ("table1", "learn", "experiment", "figures", "doctor")
+MODULES = {
+    name: name for name in ("table1", "learn", "experiment", "figures", "doctor")
+}
+MODULES["class"] = "classes"  # a word of Python's own names no module
 
 
 def program() -> None:
@@ -77,8 +80,8 @@ def _parser():
         description="Transfer learning by abstract policies (Freire & Costa 2015).",
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for name in COMMANDS:
-        module = import_module(f".{name}", __package__)
+    for name, place in MODULES.items():
+        module = import_module(f".{place}", __package__)
         command = commands.add_parser(
             name, help=module.HELP, description=module.DESCRIPTION
         )

@@ -71,8 +71,9 @@ def predict(key: str, *, direction: str, refuted_below: float) -> Prediction:
     Returns
     -------
     Prediction
-        It prints itself with a short seal; where a cell ends with it, the notebook keeps
-        that as output, and it can be written on the board.  ``.compare(found)`` opens it after the run.  Whoever
+        It prints itself with a short seal; where a cell ends with it, the notebook
+        keeps that as output, and it can be written on the board.
+        ``.compare(found)`` opens it after the run.  Whoever
         predicts again is told which prediction it is.
 
     Raises

@@ -18,6 +18,7 @@ from inspect import signature
 from .buildings import describe_map, describe_values, plot_map, plot_values
 from .ladder import describe_ladder, plot_ladder
 from .picture import Picture, draw_picture
+from .pool import describe_pool, plot_pool
 from .runs import (
     describe_boxes,
     describe_curves,
@@ -45,6 +46,7 @@ __all__ = [
     "describe_ladder",
     "describe_map",
     "describe_policy",
+    "describe_pool",
     "describe_tau",
     "describe_values",
     "figure",
@@ -54,6 +56,7 @@ __all__ = [
     "plot_ladder",
     "plot_map",
     "plot_policy",
+    "plot_pool",
     "plot_tau",
     "plot_values",
 ]
@@ -65,6 +68,7 @@ DESCRIBE = {
     plot_ladder: describe_ladder,
     plot_map: describe_map,
     plot_policy: describe_policy,
+    plot_pool: describe_pool,
     plot_tau: describe_tau,
     plot_values: describe_values,
 }

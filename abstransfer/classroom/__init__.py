@@ -1,0 +1,1 @@
+"""Running and marking what a class hands in: ``abstransfer class``."""

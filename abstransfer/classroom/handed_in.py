@@ -1,0 +1,89 @@
+"""
+What stands in a notebook that was handed in: whose it is, replies, cards.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import re
+from collections.abc import Iterator
+
+from ..project.card import TITLE, verify
+
+VERDICTS = ("right", "nearly", "not yet", "hint", "no answer yet", "not checked")
+REPLY = re.compile(
+    rf"^\**(ex-\d+-\d+[b-z]?): ({'|'.join(VERDICTS)})\.\**(.*?)(?=^\**ex-\d|\Z)",
+    re.MULTILINE | re.DOTALL,
+)
+MISTAKE = re.compile(r"This looks like: \*(.+?)\*\.")
+ASKED = re.compile(r'\bcheck\(\s*["\'](ex-\d+-\d+[b-z]?)["\']')
+
+
+def code_of(notebook) -> list[str]:
+    """Return the code of a notebook, cell by cell."""
+    return [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def student_of(notebook) -> str:
+    """Return the name in the line ``student = "..."``; "" where there is none."""
+    for line in "\n".join(code_of(notebook)).split("\n"):
+        if found := re.match(r"student\s*=\s*(['\"].*)", line):
+            try:
+                name = ast.literal_eval(found[1].partition("#")[0].strip())
+            except (SyntaxError, ValueError):
+                continue
+            return " ".join(str(name).split()).strip(".")
+    return ""
+
+
+def asked_in(notebook) -> list[str]:
+    """Return the exercises that a notebook checks, in order."""
+    return list(dict.fromkeys(ASKED.findall("\n".join(code_of(notebook)))))
+
+
+def digest(notebook) -> str:
+    """Return a digest of all code but the line that says whose it is."""
+    lines = "\n".join(code_of(notebook)).split("\n")
+    text = "\n".join(x for x in map(str.strip, lines) if not x.startswith("student"))
+    return hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()
+
+
+def texts_of(cell) -> Iterator[str]:
+    """Yield what a cell says: its text, or each of its outputs."""
+    if cell.cell_type != "code":
+        yield cell.source
+    for output in cell.get("outputs", ()):
+        data = output.get("data", {})
+        yield (
+            output.get("text")
+            or data.get("text/markdown")
+            or data.get("text/plain", "")
+        )
+
+
+def replies_in(text: str) -> dict[str, tuple[str, str]]:
+    """
+    Return the replies in a text: by exercise the verdict, and a mistake's name.
+
+    >>> replies_in("**ex-2-3: not yet.** This looks like: *one sweep less*. Count.")
+    {'ex-2-3': ('not yet', 'one sweep less')}
+    >>> replies_in("ex-1-1: right.\\nex-1-2: no answer yet. The blank")
+    {'ex-1-1': ('right', ''), 'ex-1-2': ('no answer yet', '')}
+    """
+    found = {}
+    for key, verdict, words in REPLY.findall(text):
+        mistake = MISTAKE.search(" ".join(words.split()))
+        found[key] = (verdict, mistake[1] if mistake else "")
+    return found
+
+
+def cards_said(texts: list[str]) -> str:
+    """Return in words what running the cards of texts again says; "" without one."""
+    words = []
+    for text in dict.fromkeys(text for text in texts if TITLE in text):
+        try:
+            words += ["confirmed" for _ in verify(text)]
+        except ValueError as error:
+            words.append(str(error))
+    return "; ".join(words)
