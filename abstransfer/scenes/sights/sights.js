@@ -86,6 +86,7 @@ defineScene("sights", {
       sees,
     );
     scene.onLeave(stop);
+    scene.onReset(stop);
 
     function stop() {
       clearInterval(timer);
@@ -139,6 +140,9 @@ defineScene("sights", {
       }
       const now = Math.min(t, walk.length - 1);
       const at = walk[now];
+      // Who is not told the advice sees nobody obey it.
+      go.node.hidden = !advice;
+      if (!advice && timer) stop();
       view.arrows(advice ? arrows : null);
       view.robots([{ cell: at, arm: "prob", name: "the robot" }]);
       view.trail(walk.slice(0, now + 1));
@@ -156,11 +160,11 @@ defineScene("sights", {
       if (["size", "task", "cell", "advice"].some((name) => changed.has(name))) view.rename();
       scene.twin(() => ({
         caption: words.textContent,
-        head: ["way", "sees", "the advice"],
+        head: ["way", "sees", ...(advice ? ["the advice"] : [])],
         rows: isGoal ? [] : waysFrom(looked).map(({ way, a, d }) => [
           way,
           sight(LABELS[a]),
-          percent(arrows[4 * looked + d]),
+          ...(advice ? [percent(arrows[4 * looked + d])] : []),
         ]),
       }));
       scene.close(

@@ -56,6 +56,9 @@ export function shell(scene, body, below) {
   scene.close = (sentence) => {
     const text = sentence || "";
     if (text === told) return;
+    // What is no longer so is not said any more.
+    if (next === told) next = null;
+    if (live.textContent === told) live.textContent = "";
     told = text;
     closing.hidden = !text;
     closing.textContent = text;
