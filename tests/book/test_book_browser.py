@@ -38,7 +38,8 @@ WIDER = """() => [...document.querySelectorAll("article div.math")]
 def drawn(page):
     """Wait until formulas, letters and scenes are there, and no colour glides."""
     if page.locator(".math").count():
-        page.wait_for_selector("mjx-container")
+        # One that is folded away is never seen: it is enough that it is made.
+        page.wait_for_selector("mjx-container", state="attached")
         page.evaluate("MathJax.startup.promise")
     page.evaluate(DRAWN)
     return page
