@@ -128,7 +128,8 @@ def forms(answer) -> list:
         return [answer]
     text = str.__str__(answer)
     found = []
-    if len(re.findall(r",\d", text)) == 1:  # 0,28
+    apart = re.search(r";|\band\b", text)  # 0,28; 6,6
+    if apart or len(re.findall(r",\d", text)) == 1:  # 0,28
         found.append(re.sub(r",(?=\d)", ".", text))
     if re.search(r"\d,\d{3}(?!\d)", text):  # 5,000
         found.append(re.sub(r"(?<=\d),(?=\d{3})", "", text))

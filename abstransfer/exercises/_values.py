@@ -31,7 +31,8 @@ def judge_value(exercise: Exercise, found: list) -> Verdict:
         return _judge_word(exercise, found[0])
     single = [float(array.item()) for array in found if array.size == 1]
     if not single:
-        return _judge_several(exercise, found[0].ravel())
+        verdicts = [_judge_several(exercise, array.ravel()) for array in found]
+        return next((v for v in verdicts if v.name == "right"), verdicts[0])
     if exercise.share:  # 78 percent is 0.78
         single += [number / 100 for number in single if number > 1]
     return _judge_number(exercise, single)
@@ -52,7 +53,8 @@ def _judge_several(exercise: Exercise, several: np.ndarray) -> Verdict:
     """Judge numbers, where the page asks for more than one."""
     wanted = [exercise.solution, *exercise.also]
     if len(wanted) == 1 or several.size != len(wanted):
-        words = f"One number is asked for, not {several.size}"
+        asked = "One number is" if len(wanted) == 1 else f"{len(wanted)} numbers are"
+        words = f"{asked} asked for, not {several.size}"
         if several.size == 2 and (several == np.round(several)).all():
             words += ". If a comma was to begin the decimals, write a point"
         raise Unreadable(words)
@@ -66,7 +68,9 @@ def _judge_several(exercise: Exercise, several: np.ndarray) -> Verdict:
 
 def _fits(exercise: Exercise, number: float, wanted: float) -> bool:
     number, wanted = _number(exercise, number), _number(exercise, wanted)
-    return same(number, wanted, exercise.tolerance) or rounds(number, wanted)
+    is_percent = exercise.share and wanted <= 1 < number
+    meant = [number, number / 100] if is_percent else [number]
+    return any(same(x, wanted, exercise.tolerance) or rounds(x, wanted) for x in meant)
 
 
 def _judge_number(exercise: Exercise, meant: list[float]) -> Verdict:

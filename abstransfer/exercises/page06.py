@@ -258,7 +258,8 @@ def assemble(d, q, rho, terminal, n_abstract, gamma):
         "the best action and spreads 0.05 over all 8; what falls on impossible "
         "actions is "
         "given back in proportion. How likely is the best action? And how likely is it "
-        "after the first step, which goes half of the way, from 0.5?",
+        "after the first step, which goes half of the way, from 0.5? Write both, the "
+        "second after a comma.",
         (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8),
         also=((0.5 + (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8)) / 2,),
         share=True,

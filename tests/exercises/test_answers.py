@@ -124,6 +124,11 @@ def test_a_formula_in_a_text_is_read(key, answer):
         ("ex-5-3", [0.36 / 0.46, 7]),
         ("ex-7-2", (-93.88, 3.17)),
         ("ex-7-2", np.array([-93.88, 3.2])),
+        ("ex-5-3", "0,783; 6,6"),
+        ("ex-6-3", "0,987; 0,744"),
+        ("ex-6-3", "0,987 and 0,744"),
+        ("ex-6-3", "98.7 %, 74.4 %"),
+        ("ex-6-3", "98,7 % and 74,4 %"),
     ],
 )
 def test_both_numbers_may_be_given_where_two_were_asked_for(key, answer):
@@ -141,6 +146,7 @@ def test_of_two_numbers_the_right_one_is_told():
     ("key", "answer", "words"),
     [
         ("ex-1-2", (100, 3, 5), "One number is asked for, not 3."),
+        ("ex-4-3", (972, 3, 5), "2 numbers are asked for, not 3."),
         ("ex-9-1b", (0, 2828), "If a comma was to begin the decimals, write a point."),
         ("ex-1-2", "a hundred", "`a hundred` cannot be read as one"),
         ("ex-1-2", "9**9**9", "cannot be read as one"),

@@ -98,7 +98,10 @@ function readings(task, answer) {
 function judgedValue(task, found) {
   if (task.kind === "word") return judgedWord(task, found[0]);
   const single = found.filter((numbers) => numbers.length === 1).flat();
-  if (!single.length) return judgedSeveral(task, found[0]);
+  if (!single.length) {
+    const verdicts = found.map((several) => judgedSeveral(task, several));
+    return verdicts.find(({ name }) => name === "right") ?? verdicts[0];
+  }
   // 78 percent is 0.78
   const shares = task.share ? single.filter((x) => x > 1).map((x) => x / 100) : [];
   return judgedNumber(task, [...single, ...shares]);
@@ -132,9 +135,8 @@ function judgedSeveral(task, several) {
   if (wanted.length === 1 || several.length !== wanted.length) {
     const isComma = several.length === 2 && several.every(Number.isInteger);
     const more = ". If a comma was to begin the decimals, write a point";
-    throw new Unreadable(
-      `One number is asked for, not ${several.length}${isComma ? more : ""}`,
-    );
+    const asked = wanted.length === 1 ? "One number is" : `${wanted.length} numbers are`;
+    throw new Unreadable(`${asked} asked for, not ${several.length}${isComma ? more : ""}`);
   }
   const fits = several.map((x, i) => isOrRounds(task, x, numberOf(task, wanted[i])));
   if (fits.every(Boolean)) return { name: "right" };
@@ -142,7 +144,11 @@ function judgedSeveral(task, several) {
   return { name: "not yet", text: first ? `Number ${first} of yours is right.` : "" };
 }
 
-const isOrRounds = (task, x, wanted) => same(x, wanted, task.tolerance) || rounds(x, wanted);
+function isOrRounds(task, number, wanted) {
+  const isPercent = task.share && wanted <= 1 && number > 1;
+  const meant = isPercent ? [number, number / 100] : [number];
+  return meant.some((x) => same(x, wanted, task.tolerance) || rounds(x, wanted));
+}
 
 /**
  * @param {Value} task

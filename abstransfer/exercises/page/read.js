@@ -62,7 +62,10 @@ export const READ = {
  */
 export function forms(text) {
   const found = [];
-  if ((text.match(/,\d/g) ?? []).length === 1) found.push(text.replace(/,(?=\d)/, ".")); // 0,28
+  const isApart = /;|\band\b/.test(text); // 0,28; 6,6
+  if (isApart || (text.match(/,\d/g) ?? []).length === 1) { // 0,28
+    found.push(text.replace(/,(?=\d)/g, "."));
+  }
   if (/\d,\d{3}(?!\d)/.test(text)) found.push(text.replace(/(?<=\d),(?=\d{3})/g, "")); // 5,000
   return found.length ? found : [text];
 }
