@@ -183,6 +183,19 @@ def test_another_building_has_curves_of_its_own(open_scene):
     assert abs(number(target) - scene.driving(0.5)) < 1e-9
 
 
+def test_a_stopped_run_goes_on_to_the_same_end(open_scene):
+    wanted = Dial(steps=10 * STEPS).teaching(1.0)
+    tab = bet(driven(open_scene(bare(Dial, steps=10 * STEPS))))
+    tab.click(re.compile("^Let β"))
+    tab.page.wait_for_function(
+        "() => /Learning: β = 1.00, [1-9]/.test(document.body.textContent)"
+    )
+    tab.click("Stop").click(re.compile("^Let β"))
+
+    assert goals(taught(tab), 1.0) == f"{wanted:,}"
+    assert "Stopped" not in tab.root.inner_text()
+
+
 def test_workers_end_when_stopped_and_when_the_reader_leaves(open_scene):
     tab = bet(driven(open_scene(bare(Dial))))
     tab.click(re.compile("^Let five"))
@@ -193,7 +206,14 @@ def test_workers_end_when_stopped_and_when_the_reader_leaves(open_scene):
     tab.click("Stop")
     assert tab.is_idle()
     assert goals(tab, 8.0) == "–"
+    kept = "Stopped: β = 0.00, [1-9]"
+    assert re.search(kept, tab.root.inner_text()), "what was learned stays"
+    tab.pick("Advice", "soft")
+    assert "Stopped" not in tab.root.inner_text(), "it was another advice"
+    tab.pick("Advice", "hard")
+    assert re.search(kept, tab.root.inner_text())
     tab.click(re.compile("^Let five"))
+    assert re.search(kept.replace("Stopped", "Learning"), tab.root.inner_text())
     tab.page.goto("about:blank")
     assert tab.is_idle()
     assert tab.problems == []

@@ -1,5 +1,7 @@
 """Your turn: races in any building, the card, by mouse and by keyboard."""
 
+import re
+
 import numpy as np
 import pytest
 from scene_tab import bare, number
@@ -156,6 +158,24 @@ def test_a_large_building_waits_to_be_asked_and_stops(open_scene):
     tab.click("Stop")
     assert not tab.closing
     tab.page.goto("about:blank")
+    assert tab.problems == []
+
+
+def test_a_stopped_race_keeps_what_was_learned_and_goes_on(open_scene):
+    tab = bet(project(open_scene, text=str(read_map("target")), lives=1))
+    driven(tab).click("Race")
+    tab.page.wait_for_function("() => /Racing: [1-9]/.test(document.body.innerText)")
+    tab.click("Stop")
+    assert tab.is_idle()
+    told = r"Done: (\d+) % of 5 runs. It can go on."
+    before = int(re.search(told, tab.root.inner_text())[1])
+    assert before > 0
+    tab.click("Go on with the race")
+    tab.click("Stop")
+    assert int(re.search(told, tab.root.inner_text())[1]) >= before
+    assert not tab.closing
+    tab.pick("Advice", "soft: ever less often")
+    assert "Done:" not in tab.root.inner_text(), "another race"
     assert tab.problems == []
 
 

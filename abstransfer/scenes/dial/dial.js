@@ -31,7 +31,7 @@ defineScene("dial", {
   title: "One dial, two curves",
   build(scene) {
     let source, target, prob, drives, worlds; // drives: [in source, in target] by beta
-    let running = []; // { point, n, goals } of workers
+    let [begun, running] = [[], []]; // runs { beta, of, goals }: not done, and those in workers
     let [timer, place] = [null, ""];
 
     const policyOf = (beta) => betaPolicy(prob, beta);
@@ -65,7 +65,7 @@ defineScene("dial", {
     const now = make("p", {});
     const one = button("", () => teach([scene.state.beta]), { primary: true });
     const many = button("", () => teach(places()));
-    const stop = button("Stop", () => (scene.stop(), (running = []), scene.redraw()));
+    const stop = button("Stop", () => (scene.stop(), scene.redraw()));
     scene.add(
       scene.bet("bet", {
         question: "Bet first: where on the dial is the best teacher?",
@@ -88,7 +88,7 @@ defineScene("dial", {
 
     function begin(state) {
       scene.stop();
-      [drives, worlds, running] = [{}, {}, []];
+      [drives, worlds, begun] = [{}, {}, []];
       [source, target] = [state.source, state.map].map((text) => navigationTasks(parseMap(text)));
       ({ prob } = inducedPolicies(source));
       const of = state.source + state.map;
@@ -123,13 +123,25 @@ defineScene("dial", {
     function worldOf(reward) {
       return (worlds[reward] ??= makeWorld(navigationTasks(target.map, { reward })));
     }
+    // Like the race: what is known stays until it is learned again.
+    const stopped = () => begun.filter(({ of }) => of === `${setting(scene.state)}`);
+    const sofar = (list) =>
+      list.map(({ beta, goals }) =>
+        `β = ${number(beta, 2)}, ${
+          millions(goals.length * runs.windowOf(scene.state.steps))
+        } steps, ${count(runs.sum(goals))} goals`
+      ).join("; ");
     function teach(betas) {
       const { strategy, reward, tau, luck, steps } = scene.state;
       const of = setting(scene.state);
       const window = runs.windowOf(steps);
-      running = betas.filter((beta) => !isTried(beta)).map((beta) => ({ beta, n: 0, goals: 0 }));
-      const mine = running;
+      const fresh = (beta) => ({ beta, of: `${of}`, goals: [] });
+      const mine = betas.filter((beta) => !isTried(beta)).map((beta) =>
+        stopped().find((run) => run.beta === beta) ?? fresh(beta)
+      );
       if (!mine.length) return scene.say("These are known already.");
+      running = mine;
+      begun = [...new Set([...begun, ...mine])];
       const jobs = mine.map(({ beta }) => ({
         world: worldOf(reward),
         guide: makeGuide(policyOf(beta), target.rho),
@@ -140,17 +152,16 @@ defineScene("dial", {
         window,
       }));
       scene.learn(jobs, {
-        onWindow(job, i, goals) {
-          mine[job].n = i + 1;
-          mine[job].goals += goals;
-        },
+        onWindow: (job, i, goals) => (mine[job].goals[i] = goals),
         onDone(job) {
-          const { beta, goals } = mine[job];
+          const { beta } = mine[job];
+          const goals = runs.sum(mine[job].goals);
+          begun = begun.filter((run) => run !== mine[job]);
           scene.set({ points: [...scene.state.points, [beta, goals, ...of]] });
           scene.say(`β = ${number(beta, 2)}: ${count(goals)} goals.`);
-          if (running === mine && mine.every(({ n }) => n === runs.WINDOWS)) running = [];
         },
       });
+      scene.redraw(); // what can stop it is seen at once
     }
 
     const best = (list) => list.reduce((a, b) => (b[1] > a[1] ? b : a));
@@ -220,17 +231,11 @@ defineScene("dial", {
     function tell(state) {
       const [inSource, inTarget] = drive(state.beta);
       const point = tried().find(([beta]) => beta === state.beta);
-      const busy = scene.isLearning ? running : [];
+      const left = stopped().filter(({ goals }) => goals.length);
       const taught = !state.bet
         ? "Bet first, then let it teach."
-        : busy.length
-        ? `Learning: ${
-          busy.map(({ beta, n, goals }) =>
-            `β = ${number(beta, 2)}, ${millions(n * runs.windowOf(state.steps))} steps, ${
-              count(goals)
-            } goals`
-          ).join("; ")
-        }.`
+        : scene.isLearning
+        ? `Learning: ${sofar(running)}.`
         : point
         ? `Taught by it, a robot reaches ${count(point[1])} goals.`
         : "How well it teaches: not tried yet.";
@@ -238,14 +243,15 @@ defineScene("dial", {
         `At β = ${betaText(state.beta)}, driving is worth ${
           number(inTarget, 2)
         } a cell in the target, ` +
-        `${number(inSource, 2)} in the source. ${taught}`;
+        `${number(inSource, 2)} in the source. ${taught}` +
+        (left.length && !scene.isLearning ? ` Stopped: ${sofar(left)}.` : "");
       one.set(`Let β = ${number(state.beta, 2)} teach: ${millions(state.steps)} steps`);
       many.set(
         `Let five teach: β = ${places().map((beta) => number(beta, beta % 1 ? 2 : 0)).join(", ")}`,
       );
       one.enable(state.bet);
       many.enable(state.bet && !timer);
-      stop.node.hidden = !busy.length;
+      stop.node.hidden = !scene.isLearning;
     }
 
     function twin() {

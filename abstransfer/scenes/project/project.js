@@ -11,6 +11,7 @@ import { button, toggle } from "../ui/controls.js";
 import { armStyle, count, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 import { sight } from "../ui/sights.js";
+import { sum } from "../parts/runs.js";
 import * as rules from "./race.js";
 
 const FROM = {
@@ -30,7 +31,7 @@ defineScene("project", {
   build(scene) {
     const { state } = scene;
     let [found, isWanted] = [null, false];
-    let [asked, done] = [1, 0]; // tenths of runs
+    let begun = {}; // by robot and run: the goals of its tenths; they stay after a stop
 
     const me = makeEditor(scene, { buildings: { "The school": scene.spec.state.text } });
     // Ticks of a list in the state; what an address holds is put in order.
@@ -157,6 +158,11 @@ defineScene("project", {
         (_, life) => robots().filter((name) => !isKnown(name, life)).map((name) => [name, life]),
       ).flat();
     const isDone = () => !missing().length;
+    // What of the race is done, from 0 to 1.
+    function share() {
+      const left = missing().map((run) => 1 - (begun[run]?.length ?? 0) / 10);
+      return 1 - sum(left) / (state.lives * robots().length);
+    }
     const mayRace = () => state.bet && !me.problem && !scene.isLearning && !isWanted;
     function race() {
       if (!mayRace()) return;
@@ -169,8 +175,7 @@ defineScene("project", {
     function learn() {
       const lives = missing();
       isWanted = false;
-      [asked, done] = [10 * lives.length, 0];
-      const sums = lives.map(() => 0);
+      for (const run of lives) begun[run] ??= [];
       scene.learn(
         rules.jobsOf(
           me.map,
@@ -179,15 +184,12 @@ defineScene("project", {
           lives,
         ),
         {
-          onWindow(job, _, goals) {
-            sums[job] += goals;
-            done++;
-          },
+          onWindow: (job, i, goals) => (begun[lives[job]][i] = goals),
           onDone(job) {
             const [name, life] = lives[job];
             const mine = [...(state.goals[name] ?? [])];
             for (let i = mine.length; i < life; i++) mine[i] = null;
-            mine[life] = sums[job];
+            mine[life] = sum(begun[lives[job]]);
             scene.set({ goals: { ...state.goals, [name]: mine } });
           },
         },
@@ -246,10 +248,9 @@ defineScene("project", {
           found?.iteration ?? 0
         } of ${ITERATIONS}.`;
       }
-      if (scene.isLearning) {
-        return `${length} Racing: ${number((100 * done) / asked, 0)} % of ${lived(asked / 10)}.`;
-      }
-      return length;
+      const part = `${number(100 * share(), 0)} % of ${lived(state.lives * robots().length)}`;
+      if (scene.isLearning) return `${length} Racing: ${part}.`;
+      return share() > 0 && !isDone() ? `${length} Done: ${part}. It can go on.` : length;
     }
     const rows = () => {
       const goals = isDone()
@@ -277,7 +278,9 @@ defineScene("project", {
         ? ""
         : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS}.`;
       status.textContent = saying();
-      start.set(`Race: ${lived(state.lives)} of ${plural(robots().length, "robot")}`);
+      const asked = `${lived(state.lives)} of ${plural(robots().length, "robot")}`;
+      const isHalf = share() > 0 && !isDone() && !scene.isLearning;
+      start.set(isHalf ? `Go on with the race: ${asked}` : `Race: ${asked}`);
       start.enable(mayRace() && !isDone());
       stop.node.hidden = !scene.isLearning && !isWanted;
       const racing = guides().filter((name) => more(name).length);
@@ -311,6 +314,7 @@ defineScene("project", {
         scene.stop();
         isWanted = false;
         const isStart = changed.size === Object.keys(state).length;
+        begun = {};
         if (!isStart) scene.set({ goals: {} }); // they were of another race
       }
       if (isNew) prepare();
