@@ -78,7 +78,7 @@ FORMATS = (
 class Picture(NamedTuple):
     """The picture in a text, one character a cell, edge or corner."""
 
-    lines: list[str]
+    lines: list[str]  #: of the picture alone
     rows: list[int]  #: line of the text, counted from 0, of each line of the picture
     columns: list[int]  #: column of the text of each column of the picture
 

@@ -19,7 +19,6 @@ from .maps import ROOM, Map, read_map
 from .navigation import navigation_tasks
 
 ID = "abstransfer/Navigation-v0"
-INCHES = 4.0  # of a picture's width
 
 
 class Navigation(gymnasium.Env):
@@ -101,7 +100,11 @@ class Navigation(gymnasium.Env):
             return None
         task, cell = self.tasks.task[self._state], int(self.tasks.cell[self._state])
         map_, goal = self.tasks.maps[self.tasks.building[task]], self.tasks.goal[task]
-        return (_text if self.render_mode == "ansi" else _pixels)(map_, goal, cell)
+        if self.render_mode == "ansi":
+            return _text(map_, goal, cell)
+        from .plotting import pixels
+
+        return pixels(map_, goal, cell)
 
     def _info(self) -> dict:
         s, tasks = self._state, self.tasks
@@ -117,25 +120,6 @@ def _text(map_: Map, goal: int, cell: int) -> str:
         row, column = np.divmod(where, map_.shape[1])
         chars[2 * row + 1, 2 * column + 1] = char
     return "\n".join("".join(line) for line in chars)
-
-
-def _pixels(map_: Map, goal: int, cell: int) -> np.ndarray:
-    """Return a map with its one goal and the robot, a disc, (height, width, 3)."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    from .plotting import plot_map
-    from .plotting.style import COLOR
-
-    height, width = map_.shape
-    size = INCHES, INCHES * height / width
-    figure = Figure(size, facecolor=COLOR["ground"])
-    canvas = FigureCanvasAgg(figure)
-    ax = plot_map(map_, figure.add_axes((0, 0, 1, 1)), goal=goal)
-    row, column = divmod(cell, width)
-    ax.plot(column + 0.5, row + 0.5, "o", color=COLOR["ink"], zorder=6)
-    canvas.draw()
-    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
 gymnasium.register(ID, entry_point=Navigation, max_episode_steps=Settings.max_episode)

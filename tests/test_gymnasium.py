@@ -83,9 +83,9 @@ def test_the_building_is_drawn_with_its_goal_and_the_robot():
         shots.append(picture.render())
 
     assert text.render() == "+-+---+-+\n|@d. .d*|\n| |   | |\n| |. .| |\n+-+---+-+"
-    assert shots[0].shape == (200, 400, 3)
+    assert shots[0].shape == (250, 500, 3)
     assert shots[0].dtype == np.uint8
-    left = np.s_[:100, :100]  # the robot's first cell
+    left = np.s_[:125, :125]  # the robot's first cell
     assert shots[0][left].mean() < shots[1][left].mean()
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from inspect import signature
 
-from .buildings import describe_map, describe_values, plot_map, plot_values
+from .buildings import describe_map, describe_values, pixels, plot_map, plot_values
 from .ladder import describe_ladder, plot_ladder
 from .picture import Picture, draw_picture
 from .pool import describe_pool, plot_pool
@@ -50,6 +50,7 @@ __all__ = [
     "describe_tau",
     "describe_values",
     "figure",
+    "pixels",
     "plot_boxes",
     "plot_curves",
     "plot_features",

@@ -51,6 +51,39 @@ def plot_map(map_: Map, ax=None, *, goal: int | None = None, fill: bool = True):
     return ax
 
 
+def pixels(map_: Map, goal: int, robot: int) -> np.ndarray:
+    """
+    Return a picture of a building, one of its goals, and a robot in a cell.
+
+    Parameters
+    ----------
+    map_ : Map
+    goal, robot : int
+        Cells.
+
+    Returns
+    -------
+    (height, width, 3) ndarray of uint8
+
+    Examples
+    --------
+    >>> from abstransfer.maps import parse_map
+    >>> pixels(parse_map("+---+\\n|.d*|\\n+---+"), goal=1, robot=0).shape[2]
+    3
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    height, width = map_.shape
+    figure = Figure((WIDTH, WIDTH * height / width), facecolor=COLOR["ground"])
+    canvas = FigureCanvasAgg(figure)
+    ax = plot_map(map_, figure.add_axes((0, 0, 1, 1)), goal=goal)
+    row, column = divmod(robot, width)
+    ax.plot(column + 0.5, row + 0.5, "o", color=COLOR["ink"], zorder=6)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
 def plot_values(
     map_: Map,
     v: np.ndarray,

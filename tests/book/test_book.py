@@ -190,6 +190,7 @@ EVERYDAY = TERMS["EVERYDAY"]
 
 
 SKIPPED = {"h1", "h2", "h3", "h4", "code", "pre", "script", "style", "figure"}
+BESIDE = ["ab-caption", "ab-answer", "ab-hint"]  # not in the order of reading
 
 
 def glossary(html):
@@ -208,7 +209,7 @@ def first_use(article, word):
     found = TERMS["pattern"](word)
     for text in article.find_all(string=found):
         inside = {tag.name for tag in text.parents}
-        if not inside & SKIPPED and not text.find_parent(class_="ab-caption"):
+        if not inside & SKIPPED and not text.find_parent(class_=BESIDE):
             return text
     return None
 
