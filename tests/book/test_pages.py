@@ -99,9 +99,14 @@ def test_each_exercise_has_a_solution_and_belongs_to_an_outcome(lesson):
 
 
 def n_words(text):
-    """Count the words of a page without exercises, quiz, formulas, lecturer's box."""
+    """
+    Count the words of a page without exercises, quiz, formulas, lecturer's box.
+
+    Nor are answers counted that are folded below the questions of a scene.
+    """
     before, _, after = text.partition("\n## Exercises\n")
     text = before + after.partition("\n## Takeaways\n")[2]
+    text = re.sub(r"<details>.*?</details>", "", text, flags=re.DOTALL)
     box = r"^(`{4,})\{admonition\} For the lecturer.*?^\1"
     text = re.sub(box, "", text, flags=re.MULTILINE | re.DOTALL)
     formula = r"^```\{math\}.*?^```|\$\$.*?\$\$|\$[^$]*\$"
