@@ -5,6 +5,7 @@
 # make lab    open the notebooks in JupyterLab
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
+# make zip    pack the built book and the student edition into build, with checksums
 # make nightly  the long forms of the tests that draw what happens, an hour; and
 #   whether all that is pinned can be had for each Python
 # make bench  measure the learning loops beside other people's, and the pages
@@ -25,12 +26,12 @@ PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is p
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core test-browsers nightly lab pdf student bench clean env system
+.PHONY: book test test-core test-browsers nightly lab pdf student zip bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core test-browsers nightly lab pdf student bench clean env system:
+book test test-core test-browsers nightly lab pdf student zip bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -123,6 +124,13 @@ pdf: .venv/.book
 
 student: .venv/.book
 	$(BIN)/python scripts/student_edition.py build/student
+
+# To hand out: a zip of each, beside its checksum.
+zip: book student
+	cd build && rm -f abstransfer-*.zip* && ../$(BIN)/python -c "import shutil; \
+	  shutil.make_archive('abstransfer-book', 'zip', '_build/html'); \
+	  shutil.make_archive('abstransfer-student', 'zip', 'student')" && \
+	  for file in abstransfer-*.zip; do sha256sum $$file > $$file.sha256; done
 
 # Trusted, or JupyterLab would not show the stored pictures.
 lab: .venv/.lab
