@@ -206,5 +206,12 @@ def _write(path: Path, rows: Iterable[list]) -> None:
 
 
 def _text(cell) -> str:
+    """
+    Return a cell as text that no spreadsheet takes for a formula.
+
+    >>> [_text(cell) for cell in ("=1+1", "-1", "-", "", 3)]
+    ["'=1+1", "'-1", '-', '', '3']
+    """
     text = str(cell)
-    return f"'{text}" if text[:1] in "=+@" or text[:1] == "-" and text != "-" else text
+    is_formula = text.startswith(("=", "+", "@", "-")) and text != "-"
+    return f"'{text}" if is_formula else text

@@ -99,13 +99,12 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
     hand_in(folder, "2_bob", 'student = "Bob"', *right)
     wrong = ("nothing", IMPORT, 'check("ex-1-2", 99)', "import os\nos._exit(3)")
     hand_in(folder, "3_cy", 'student = "=Cy"', *wrong)
-    hang = "import time\nwhile True:\n    time.sleep(0.1)"
-    hand_in(folder, "4_di", IMPORT, 'check("ex-1-2", ...)', hang)
+    hand_in(folder, "4_di", IMPORT, 'check("ex-1-2", ...)', "1 / 0")
     (folder / "5_torn.ipynb").write_text('{"cells": [', encoding="utf-8")
     (folder / "6_word.ipynb").write_bytes(b"PK\x03\x04\xff\xfe")
     before = {path: path.read_bytes() for path in folder.iterdir()}
 
-    collect(folder, table, cell_seconds=90, seconds=1000)
+    collect(folder, table)
 
     rows = rows_of(table)
     assert [row["student"] for row in rows] == [
@@ -115,7 +114,7 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
         "ran",
         "ran",
         "the kernel died",
-        "hung in code cell 3",
+        "raised ZeroDivisionError in code cell 3",
         "no notebook",
         "no notebook",
     ]
@@ -133,6 +132,23 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
         }
     ]
     assert before == {path: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_a_cell_that_hangs_is_interrupted_and_named(tmp_path):
+    hand_in(tmp_path, "a", "import time\nwhile True:\n    time.sleep(0.1)")
+
+    [said] = collect(tmp_path, tmp_path / "out.csv", cell_seconds=5)
+
+    assert said["outcome"] == "hung in code cell 1"
+
+
+def test_a_notebook_that_cannot_be_interrupted_is_stopped(tmp_path):
+    deaf = "while True:\n    try:\n        while True:\n            pass\n"
+    hand_in(tmp_path, "a", f"{deaf}    except BaseException:\n        pass", "1")
+
+    [said] = collect(tmp_path, tmp_path / "out.csv", cell_seconds=1000, seconds=20)
+
+    assert said["outcome"] == "stopped after 20 s"
 
 
 def test_a_notebook_is_run_without_the_network_where_that_can_be(tmp_path):
