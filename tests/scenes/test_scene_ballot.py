@@ -36,6 +36,12 @@ def bet(tab, best="Winner", more="no"):
     return tab
 
 
+def with_large(tab):
+    """Ask for the large building, too, once all is known of it."""
+    tab.root.get_by_label(re.compile("^The large building, too")).check()
+    return tab.settle()
+
+
 def dial(tab, beta):
     tab.slider("The dial").fill(str(beta))
     return tab.settle()
@@ -81,7 +87,7 @@ def test_boxes_and_their_advice_are_those_of_python(ballot):
 
 
 def test_what_advice_is_worth_is_exact_and_the_papers_are_hollow_marks(ballot):
-    bet(ballot)
+    with_large(bet(ballot))
     scene = Ballot()
     for beta in (0.25, 0.5, 2.75, 8.0, np.inf):
         dial(ballot, WINNER if beta == np.inf else beta)
@@ -122,6 +128,7 @@ def test_a_bet_comes_first_and_the_closing_names_the_best_advice(ballot):
     places = [*BETAS, np.inf]
 
     assert ballot.closing.count("right.") == 2
+    with_large(ballot)
     for where in ("source", "target"):
         values = [scene.driving(where, beta) for beta in places]
         best = f"β = {places[int(np.argmax(values))]:.2f} with {max(values):.1f} a cell"
@@ -129,6 +136,21 @@ def test_a_bet_comes_first_and_the_closing_names_the_best_advice(ballot):
         for name, beta in ADVICE.items():
             value = f"{name} {scene.driving(where, beta):.1f}"
             assert value.replace("-", "−") in ballot.closing
+
+
+def test_the_bet_of_page_7_is_not_answered_before_a_reader_asks(ballot):
+    values = {f"{Ballot().driving('target', beta):.1f}"[1:] for beta in (0, 1)}
+    values |= {str(-PAPER["target"][name])[:4] for name in ("nd", "prob")}
+    assert not any(value in Ballot().html() for value in values)
+    bet(ballot)
+    assert [*ballot.rows()][-1] == WHOLE[0]
+    assert not any(value in ballot.root.inner_text() for value in values)
+
+    with_large(ballot)
+    assert [*ballot.rows()][-1] == WHOLE[1]
+    assert all(f"−{value}" in ballot.closing for value in ("81.0", "70.2"))
+    ballot.click("Reset")
+    assert not ballot.root.get_by_label(re.compile("^The large")).is_checked()
 
 
 # By mouse and by keyboard

@@ -28,14 +28,15 @@ def draw(scene: Ballot) -> Still:
         for name in ("Prob", "ND"):
             share = advice[name][scene.z, a]
             bars.append(Row(name, f"{share:.2f}", name.lower(), bar=share))
+    # The large building answers a bet of page 7, so it waits until it is asked for.
+    where = ("source", "target")[: 1 + scene.large]
     lines = {
-        name: [(beta, scene.driving(name, beta)) for beta in BETAS]
-        for name in ("source", "target")
+        name: [(beta, scene.driving(name, beta)) for beta in BETAS] for name in where
     }
     beta, best = max(lines["source"], key=lambda point: point[1])
     places = {**ADVICE, f"\u03b2 = {beta:g}": beta}
     worth = {
-        name: {where: scene.driving(where, at) for where in lines}
+        name: {place: scene.driving(place, at) for place in where}
         for name, at in places.items()
     }
     known = {name: number(of["source"]) for name, of in worth.items()}
@@ -52,10 +53,11 @@ def draw(scene: Ballot) -> Still:
     shares = row_chart(bars, Axis(0, 1, {}, "probability"), words, tall=17)
     frames = [_box(scene), shares, picture(drives, alt, WIDTH, HEIGHT)]
     rows = [
-        (name, *(number(of[where], 2) for where in lines), *_paper(name))
+        (name, *(number(of[place], 2) for place in where), *_paper(name, where))
         for name, of in worth.items()
     ]
-    head = ("advice", "small building", "large", "paper: small", "large")
+    names = ("small building", "large building")[: len(where)]
+    head = ("advice", *names, *(f"paper: {name}" for name in names))
     return Still(frames, caption, head, rows)
 
 
@@ -68,7 +70,7 @@ def _box(scene: Ballot) -> str:
     return draw_building(scene.source, alt, values=values, goal=tasks.goal[0])
 
 
-def _paper(name: str) -> Sequence[str]:
-    """Return the paper's values of advice, in both buildings, if it has them."""
-    values = [PAPER[where].get(name.lower()) for where in ("source", "target")]
+def _paper(name: str, where: Sequence[str]) -> Sequence[str]:
+    """Return the paper's values of advice in the buildings, if it has them."""
+    values = [PAPER[place].get(name.lower()) for place in where]
     return ["\u2013" if v is None else number(v, 2) for v in values]

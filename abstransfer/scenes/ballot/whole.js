@@ -33,7 +33,10 @@ export function wholeAdvice(scene) {
     { class: "ab-note" },
     "Hollow, in colour, at 0 and 1: the paper's ND and Prob.",
   );
-  const node = make("div", { class: "ab-scene" }, now, chart.node, note);
+  const large = scene.toggle("large", {
+    label: "The large building, too: it answers a bet of the driving test (page 7)",
+  });
+  const node = make("div", { class: "ab-scene" }, now, chart.node, note, large);
   const bets = [
     scene.bet("bet", {
       question:
@@ -46,6 +49,8 @@ export function wholeAdvice(scene) {
     }),
   ];
 
+  // The large building is shown to who asks for it: it answers a bet of page 7.
+  const sides = () => SIDES.slice(0, scene.state.large ? 2 : 1);
   const hasBet = () => scene.state.bet && scene.state.bet_more;
   const value = (
     drives,
@@ -64,16 +69,16 @@ export function wholeAdvice(scene) {
     now.textContent =
       `At β = ${betaText(state.beta)} the whole advice is worth ${
         value(drives, state.beta, 0, 2)
-      } a cell in the small building, ` +
-      `${value(drives, state.beta, 1, 2)} in the large one.`;
+      } a cell in the small building` +
+      (state.large ? `, ${value(drives, state.beta, 1, 2)} in the large one.` : ".");
     const known = BETAS.filter((beta) => beta <= LAST && drives[beta]);
-    const curves = SIDES.flatMap(([name, , arm], side) => [
+    const curves = sides().flatMap(([name, , arm], side) => [
       { arm, points: known.map((beta) => [beta, drives[beta][side]]) },
       { name, arm, points: drives[WINNER] ? [[LAST + 1, drives[WINNER][side]]] : [] },
     ]);
     note.hidden = SIDES.some(([, of]) => state[of] !== scene.spec.state[of]);
     if (!note.hidden) {
-      for (const paper of [PAPER.source, PAPER.target]) {
+      for (const paper of [PAPER.source, PAPER.target].slice(0, sides().length)) {
         for (const key of ["nd", "prob"]) {
           curves.push({ arm: `${key}-soft`, points: [[ADVICE[key][0], paper[key]]] });
         }
@@ -106,13 +111,12 @@ export function wholeAdvice(scene) {
       `${scene.betResult("bet", top)} ${
         scene.betResult("bet_more", isMore ? (beta < 1 ? "between" : "beyond") : "no")
       } ` +
-      `Of ${BETAS.length} places of the dial, best in the small building is ${
-        told(beta, 0)
-      }; in the large one ${told(other, 1)}.`
+      `Of ${BETAS.length} places of the dial, best in the small building is ${told(beta, 0)}` +
+      (scene.state.large ? `; in the large one ${told(other, 1)}.` : ".")
     ).trim();
   }
   const rows = (betas, drives) =>
-    SIDES.map(([name], side) => [
+    sides().map(([name], side) => [
       `the whole advice, ${name} building`,
       "",
       ...betas.map((beta) => (hasBet() ? value(drives, beta, side, 8) : "–")),

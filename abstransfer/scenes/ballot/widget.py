@@ -55,6 +55,8 @@ class Ballot(Scene):
         Which goal of the source is shown, counted from 0.
     beta : float, 0 to 8, or infinity
         The power of the shares: ND at 0, Prob at 1, the winner at infinity.
+    large : bool
+        Whether the large building is shown, too: it answers a bet of page 7.
 
     Examples
     --------
@@ -74,6 +76,7 @@ class Ballot(Scene):
     z = traitlets.CInt(0b10011, min=0, max=2**11 - 1).tag(sync=True)
     task = traitlets.CInt(7, min=0).tag(sync=True)
     beta = BetaTrait()
+    large = traitlets.Bool(False).tag(sync=True)
     bet = traitlets.Unicode("").tag(sync=True, local=True)
     bet_more = traitlets.Unicode("").tag(sync=True, local=True)
 

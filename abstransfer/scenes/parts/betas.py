@@ -36,10 +36,10 @@ def driving_at(source: Map, target: Map, beta: float) -> float:
 def driving_chart(
     lines: Mapping[str, Sequence[tuple[float, float]]], peak: float, name: str
 ) -> list[str]:
-    """Return a chart of (beta, value) in the source, dashed, and in the target."""
+    """Return a chart of (beta, value): the source dashed, the target whole."""
     values = [value for points in lines.values() for _, value in points]
     dashes = {"source": "5 2", "target": ""}
-    curves = [Curve(where, lines[where], dash=dash) for where, dash in dashes.items()]
+    curves = [Curve(where, lines[where], dash=dashes[where]) for where in lines]
     note = f"peak {peak:g}"
     return line_chart(
         curves, DIAL, tens(values, name), line=peak, note=note, height=HEIGHT
