@@ -200,28 +200,43 @@ def evaluate(P, r, gamma):
     ),
     value(
         "ex-7-3",
-        "What is the mean value of Prob in the source building, if the actions are "
-        "compass directions?",
-        -81.580346,
+        "What is the mean value of Grad in the target building, if *near* is taken "
+        "literally?",
+        -66.660865,
         tolerance=2e-3,
         hints=(
-            "Make the tasks of the source once more, with other actions. Then ask what "
-            "the robot would have to see to know where north is.",
-            '`compass = at.navigation_tasks(source_map, actions="compass")`; compare '
-            "with the paper's first column.",
-            '`prob = at.abstract_policies(compass)["prob"][compass.rho]`; then '
-            "`at.evaluate_policy(compass.mdp, prob).mean()`.",
+            "Only what the robot sees changes, so only the three rows of advice can. "
+            "In the scene, set *near* and *almost near* to 4.",
+            "`at.navigation_tasks(map_, near=4, almost_near=4)`, for both maps: advice "
+            "is made in one and drives in the other.",
+            '`grad = at.abstract_policies(home)["grad"][away.rho]`; then '
+            "`at.evaluate_policy(away.mdp, grad).mean()`.",
         ),
         wrong=[
-            Wrong("the usual actions", -36.246087, 'That is "go to what you see".'),
-            Wrong("ND", -82.918996, "That is ND. What is asked for is Prob."),
-            Wrong("Grad", -66.464172, "That is Grad. What is asked for is Prob."),
+            Wrong("the usual reading", -71.177, 'That is "at most", as in the ladder.'),
+            Wrong("Prob", -70.004307, "That is Prob. What is asked for is Grad."),
+            Wrong("ND", -83.955786, "That is ND. What is asked for is Grad."),
+            Wrong(
+                "some are almost near",
+                -69.397067,
+                "There *almost near* still reaches to 8. Taken literally, it is never "
+                "true.",
+            ),
+            Wrong(
+                "5 or fewer",
+                -70.488984,
+                'The other part of "5 or more" is 4 or fewer.',
+            ),
+            Wrong(
+                "the other building",
+                -32.868957,
+                "That is the source building; what is asked for is the target.",
+            ),
             Wrong(
                 "the sign",
-                81.580346,
+                66.660865,
                 "The size is right. But the robot pays, so its value is below 0.",
             ),
-            Wrong("the paper's number", -36.91, "That is Prob in the paper's Table 1."),
         ],
     ),
     value(
