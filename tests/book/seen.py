@@ -23,6 +23,7 @@ from abstransfer.scenes import (
     Race,
     Ripple,
     Studio,
+    Surgery,
 )
 from abstransfer.scenes.hill.widget import HALL, RHO, advice
 from abstransfer.scenes.microscope.widget import STARTS
@@ -337,7 +338,7 @@ def page_09():
 
 
 def page_10():
-    """The top of driving, three places of the dial, and the other reward."""
+    """Driving, three places of the dial, the other reward; then three operations."""
     dial = Dial()
     betas = np.arange(0, 8.25, 0.25)
     drives = [dial.driving(beta) for beta in betas]
@@ -350,6 +351,15 @@ def page_10():
     poor = [Dial(reward="cost").teaching(beta) for beta in places]
     assert poor == sorted(poor, reverse=True)
     yield [f"{n:,}" for n in poor]
+    scene = Surgery()
+    asked = [("nd", "none"), ("nd", "erase"), ("prob", "none"), ("prob", "graft")]
+    asked += [("nd", "deal"), ("nd", "thin")]
+    nd, erased, prob, grafted, dealt, thinned = (scene.goals(*x).sum() for x in asked)
+    assert prob < thinned < dealt < grafted < nd
+    left = (erased - prob) / (nd - prob)
+    yield [f"{100 * left:.0f} %", *(f"{n / 1000:.0f}" for n in (nd, erased, prob))]
+    yield [f"{grafted / 1000:.0f} thousand"]
+    yield [f"{dealt / 1000:.0f} and {thinned / 1000:.0f} thousand"]
 
 
 def page_11():

@@ -16,18 +16,20 @@ ITEM = re.compile(r"^\d\. (.+)$", re.MULTILINE)
 
 
 def questions_and_answers(path):
-    """Return the numbered questions under the scene of a page, and their answers."""
+    """Return the numbered questions under the scenes of a page, and their answers."""
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     shown = [
         i for i, c in enumerate(cells) if "data-scene=" in json.dumps(c.get("outputs"))
     ]
-    (text,) = [
-        text
-        for i in shown
-        if (text := "".join(cells[i + 1]["source"])).startswith("1. ")
-    ]
-    folded = FOLDED.search(text)
-    return ITEM.findall(text[: folded.start()]), ITEM.findall(folded[1])
+    questions, answers = [], []
+    for i in shown:
+        if not (text := "".join(cells[i + 1]["source"])).startswith("1. "):
+            continue
+        folded = FOLDED.search(text)
+        assert folded, f"questions without answers: {text[:80]}"
+        questions += ITEM.findall(text[: folded.start()])
+        answers += ITEM.findall(folded[1])
+    return questions, answers
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
