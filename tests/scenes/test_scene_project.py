@@ -108,6 +108,7 @@ SETUPS = [
 
 def widget_of(setup):
     parts = setup._asdict()
+    del parts["student"]  # who says a name does so in Python
     parts["lives"] = parts.pop("runs")  # addresses keep the word
     lists = {name: list(parts[name]) for name in ("features", "guides")}
     return Project(**parts | lists)
