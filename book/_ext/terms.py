@@ -3,14 +3,17 @@ A Sphinx extension that leads from the first use of a word to the glossary.
 
 On each page the first use of a word of the glossary becomes a link to what it means:
 in running text, not in a heading, a link, code, or where it is set in bold or italics,
-because there the page says itself what it means.  Words that English uses in another
-sense as well ("run", "cut") are not looked for; they are linked by hand, {term}`cut`.
+because there the page says itself what it means; nor in the title of a folding or an
+option of a bet, because what is pressed as a whole may hold no link.  Words that
+English uses in another sense as well ("run", "cut") are not looked for; they are linked
+by hand, {term}`cut`.
 """
 
 import re
 
 from docutils import nodes
 from sphinx import addnodes
+from sphinx_design.dropdown import dropdown_title
 
 PAGE = "notation"  # where the glossary is
 EVERYDAY = {  # also a word of every day, or of this book in another sense
@@ -32,6 +35,7 @@ NOT_PROSE = (
     nodes.math_block,
     nodes.term,
     addnodes.pending_xref,
+    dropdown_title,
 )
 
 
@@ -60,13 +64,20 @@ def looked_for(env):
 
 
 def is_prose(text):
-    """Return whether a text is none of a heading, a link, code, or a definition."""
+    """Return whether a text may hold a link: no heading, link, code, or button."""
     parent = text.parent
     while parent is not None:
-        if isinstance(parent, NOT_PROSE):
+        if isinstance(parent, NOT_PROSE) or is_options(parent):
             return False
         parent = parent.parent
     return True
+
+
+def is_options(node):
+    """Return whether a node is the list of options of a bet."""
+    if not isinstance(node, nodes.bullet_list):
+        return False
+    return any(name.startswith("bet-") for name in node.parent.get("ids", ()))
 
 
 def is_defined(doctree, found, before):

@@ -189,7 +189,10 @@ def test_what_a_drawn_picture_says_stands_below_it_too(html, name):
 EVERYDAY = TERMS["EVERYDAY"]
 
 
-SKIPPED = {"h1", "h2", "h3", "h4", "code", "pre", "script", "style", "figure"}
+SKIPPED = {
+    *("h1", "h2", "h3", "h4", "code", "pre", "script", "style", "figure"),
+    "summary",  # and an option of a bet: each is pressed as a whole
+}
 BESIDE = ["ab-caption", "ab-answer", "ab-hint"]  # not in the order of reading
 
 
@@ -209,7 +212,10 @@ def first_use(article, word):
     found = TERMS["pattern"](word)
     for text in article.find_all(string=found):
         inside = {tag.name for tag in text.parents}
-        if not inside & SKIPPED and not text.find_parent(class_=BESIDE):
+        if inside & SKIPPED or text.find_parent(class_=BESIDE):
+            continue
+        options = text.find_parent("ul")
+        if options is None or not options.parent.get("id", "").startswith("bet-"):
             return text
     return None
 
