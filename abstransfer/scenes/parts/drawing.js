@@ -8,11 +8,10 @@ export const SIDES = ["north", "east", "south", "west"];
 
 // A building of one room with a goal in its middle.
 export function blank(height, width) {
-  const line = (corner, middle) => corner + middle.repeat(2 * width - 1) + corner;
-  const lines = Array.from(
-    { length: 2 * height + 1 },
-    (_, row) => row % (2 * height) ? line("|", " ") : line("+", "-"),
+  const [wall, floor] = ["+-", "| "].map(([corner, middle]) =>
+    corner + middle.repeat(2 * width - 1) + corner
   );
+  const lines = [wall, ...Array(2 * height - 1).fill(floor), wall];
   const row = 2 * Math.floor(height / 2) + 1;
   const column = 2 * Math.floor(width / 2) + 1;
   return redraw(lines.join("\n"), [[row, column, GOAL]]);

@@ -156,12 +156,9 @@ export function makeTools(scene, me, buildings = {}) {
   const sizes = [["Rows", 9], ["Columns", 15]].map(([label, value]) =>
     make("input", { type: "number", min: LEAST, max: LARGEST, value, "aria-label": label })
   );
-  const clear = () => {
-    const [height, width] = sizes.map(({ value }) =>
-      Math.min(Math.max(Math.round(value) || LEAST, LEAST), LARGEST)
-    );
-    load(blank(height, width))();
-  };
+  scene.onReset(() => sizes.forEach((each) => (each.value = each.defaultValue)));
+  const size = ({ value }) => Math.min(Math.max(Math.round(value), LEAST), LARGEST);
+  const clear = () => load(blank(size(sizes[0]), size(sizes[1])))();
   const files = [
     scene.row(
       Object.entries({ ...buildings, "The source": mapTexts.source, "The target": mapTexts.target })
