@@ -6,7 +6,7 @@ from test_moments import links
 
 LIVE = "() => !document.querySelector('.abstransfer-scene:not(.ab-live)')"
 NAMES = [path.stem for path in PAGES]
-STATE = "() => document.querySelector('.ab-body').innerHTML"
+STATE = "scene => scene.querySelector('.ab-body').innerHTML"
 UNFOLDED = """() => {
     for (const details of document.querySelectorAll("details:not([class])"))
         details.open = true;
@@ -97,14 +97,15 @@ def test_each_link_changes_the_scene_and_back_returns(opened, name):
     assert links(PAGES[NAMES.index(name)])
     page.evaluate(UNFOLDED)
     for link in page.locator("article a[href^='#'][href*='=']").all():
+        href = link.get_attribute("href")
+        scene = page.locator(f'[data-ab-id="{href[1:].partition(".")[0]}"]')
         page.evaluate(CALM)
-        before = page.evaluate(STATE)
+        before = scene.evaluate(STATE)
         link.click()
         back = page.get_by_role("button", name="Back to the text")
         back.wait_for()
         page.evaluate(CALM)
-        scene = page.locator(".abstransfer-scene").first
-        assert page.evaluate(STATE) != before, link.get_attribute("href")
+        assert scene.evaluate(STATE) != before, href
         assert scene.locator(".ab-now", has_text="stays as it was").count() == 0
         assert scene.bounding_box()["y"] < 900, "it is in sight"
         back.click()
