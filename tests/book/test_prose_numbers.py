@@ -116,8 +116,7 @@ def test_a_wrong_number_on_a_real_page_is_found(tmp_path):
     changed = copy.deepcopy(page)
     for cell in changed["cells"]:
         cell["source"] = [
-            line.replace("which is about 63", "which is 59")
-            for line in cell["source"]
+            line.replace("which is about 63", "which is 59") for line in cell["source"]
         ]
     assert changed != page
 
