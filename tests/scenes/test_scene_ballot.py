@@ -123,8 +123,7 @@ def test_a_bet_comes_first_and_the_closing_names_the_best_advice(ballot):
     assert "“Winner”; it was “Prob”" in ballot.closing
     assert "it was “yes, between ND and Prob”" in ballot.closing
     assert ballot.root.locator(".ab-chart").is_visible()
-    for _ in range(2):
-        ballot.root.get_by_role("button", name="Change").first.click()
+    counted(ballot.click("Reset"))
     bet(ballot, "Prob", "yes, between ND and Prob")
     scene = Ballot()
     places = [*BETAS, np.inf]
