@@ -39,7 +39,7 @@ def run(arguments) -> int:
 
 
 def _pool(arguments) -> int:
-    from ..classroom.pool import pool
+    from ..classroom.pooling import pool
     from ..plotting import describe_pool, figure, plot_pool
 
     names = {"robot": arguments.robot, "over": arguments.over}
@@ -55,7 +55,7 @@ def _pool(arguments) -> int:
 
 
 def _collect(arguments) -> int:
-    from ..classroom.collect import collect, shut_off
+    from ..classroom.collecting import collect, shut_off
 
     if not shut_off():
         print("This system cannot shut off the network.", file=sys.stderr)

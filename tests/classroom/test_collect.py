@@ -7,8 +7,8 @@ import pytest
 from nbformat import write
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from abstransfer.classroom import collect as collecting
-from abstransfer.classroom.collect import collect
+from abstransfer.classroom import collecting
+from abstransfer.classroom.collecting import collect
 from abstransfer.classroom.handed_in import (
     asked_in,
     digest,

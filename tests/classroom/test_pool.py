@@ -5,8 +5,8 @@ from nbformat import write
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 
 from abstransfer import parse_map
-from abstransfer.classroom import pool as pooling
-from abstransfer.classroom.pool import pool
+from abstransfer.classroom import pooling
+from abstransfer.classroom.pooling import pool
 from abstransfer.cli import main
 from abstransfer.experiments.stats import t_interval
 from abstransfer.project.card import card_text
