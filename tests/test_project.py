@@ -27,6 +27,7 @@ COMES_WITH = {
     "pybtex": "jupyter-book",
     "pyyaml": "jupyter-book",
     "sphinx": "jupyter-book",
+    "sphinx-design": "jupyter-book",
 }
 
 
@@ -59,7 +60,7 @@ def imported(folder):
 @pytest.mark.parametrize(
     ("folder", "extras"),
     [
-        ("abstransfer", ("gymnasium", "book")),
+        ("abstransfer", ("gymnasium", "book", "class")),
         ("tests", ("book", "test", "dask", "gymnasium")),
         ("scripts", ("book", "test")),
         ("book", ("book",)),
