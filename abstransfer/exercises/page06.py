@@ -206,7 +206,8 @@ def assemble(d, q, rho, terminal, n_abstract, gamma):
             "Each state gives something to the row of its abstract state.",
             "State s gives `gamma * d[s] * q[s]`. Which states give nothing? Several "
             "states may give to the same row: add, do not overwrite.",
-            "`if not terminal[s]`, then `gradient[rho[s]] += gamma * d[s] * q[s]`.",
+            "`G = np.zeros((n_abstract, q.shape[1]))`, `d = np.where(terminal, 0, d)`, "
+            "`np.add.at(G, rho, gamma * d[:, None] * q)`.",
         ),
         wrong=[
             Wrong(

@@ -207,8 +207,8 @@ def evaluate(P, r, gamma):
         hints=(
             "Only what the robot sees changes, so only the three rows of advice can. "
             "In the scene, set *near* and *almost near* to 4.",
-            "`at.navigation_tasks(map_, near=4, almost_near=4)`, for both maps: advice "
-            "is made in one and drives in the other.",
+            "`home, away = (at.navigation_tasks(m, near=4, almost_near=4) for m in "
+            "(source_map, target_map))`: advice is made in one, drives in the other.",
             '`grad = at.abstract_policies(home)["grad"][away.rho]`; then '
             "`at.evaluate_policy(away.mdp, grad).mean()`.",
         ),

@@ -6,7 +6,8 @@ from test_moments import links
 
 LIVE = "() => !document.querySelector('.abstransfer-scene:not(.ab-live)')"
 NAMES = [path.stem for path in PAGES]
-STATE = "scene => scene.querySelector('.ab-body').innerHTML"
+STATE = """scene => [scene.querySelector('.ab-body').innerHTML,
+    ...[...scene.querySelectorAll('input')].map((e) => e.value + e.checked)].join()"""
 UNFOLDED = """() => {
     for (const details of document.querySelectorAll("details:not([class])"))
         details.open = true;

@@ -32,7 +32,9 @@ def test_cards_in_texts_and_notebooks_are_run_again_and_pooled(tmp_path):
     (tmp_path / "mail.txt").write_text(
         "".join(texts[:3]).replace("\n", "\r\n"), "utf-8"
     )
-    (tmp_path / "di.md").write_text("".join(f"> {x}\n" for x in texts[3].splitlines()))
+    (tmp_path / "di.md").write_text(
+        "".join(f"> {x}\n" for x in texts[3].splitlines()), encoding="utf-8"
+    )
     cell = new_code_cell("print(card)", outputs=[new_output("stream", text=texts[4])])
     write(new_notebook(cells=[cell]), tmp_path / "eve.ipynb")
 
@@ -52,18 +54,18 @@ def test_cards_in_texts_and_notebooks_are_run_again_and_pooled(tmp_path):
 )
 def test_a_verdict_comes_from_the_interval(tmp_path, margin, verdict):
     for name in ("Ann", "Bob", "Cy", "Di", "Eve"):
-        (tmp_path / f"{name}.md").write_text(card(name))
+        (tmp_path / f"{name}.md").write_text(card(name), encoding="utf-8")
 
     assert pool(tmp_path, "rand", "eager", margin=margin).verdict == verdict
 
 
 def test_a_card_that_does_not_count_is_left_out_with_a_word(tmp_path):
     good = card("Ann")
-    (tmp_path / "a.md").write_text(good)
-    (tmp_path / "b.md").write_text(good.replace("Seed: ", "Seed: 1"))
-    (tmp_path / "c.md").write_text(card("Cy", OTHER))
-    (tmp_path / "d.md").write_text(card(""))
-    (tmp_path / "e.md").write_text(card("ANN"))
+    (tmp_path / "a.md").write_text(good, encoding="utf-8")
+    (tmp_path / "b.md").write_text(good.replace("Seed: ", "Seed: 1"), encoding="utf-8")
+    (tmp_path / "c.md").write_text(card("Cy", OTHER), encoding="utf-8")
+    (tmp_path / "d.md").write_text(card(""), encoding="utf-8")
+    (tmp_path / "e.md").write_text(card("ANN"), encoding="utf-8")
 
     found = pool(tmp_path, "rand", "eager")
 
@@ -76,7 +78,7 @@ def test_a_card_that_does_not_count_is_left_out_with_a_word(tmp_path):
 
 
 def test_a_robot_that_no_card_has_is_named(tmp_path):
-    (tmp_path / "a.md").write_text(card("Ann"))
+    (tmp_path / "a.md").write_text(card("Ann"), encoding="utf-8")
     told = []
 
     with pytest.raises(ValueError, match="holds no card that counts"):
@@ -86,7 +88,7 @@ def test_a_robot_that_no_card_has_is_named(tmp_path):
 
 def test_the_command_says_the_verdict_and_draws_the_buildings(tmp_path, capsys):
     for name in ("Ann", "Bob", "Cy", "Di", "Eve"):
-        (tmp_path / f"{name}.md").write_text(card(name))
+        (tmp_path / f"{name}.md").write_text(card(name), encoding="utf-8")
     wall = tmp_path / "wall.svg"
 
     code = main(

@@ -526,7 +526,9 @@ def test_loops_are_compiled_once_which_is_said_until_a_file_of_theirs_changes(tm
 
     assert told() == (0, 1)
     assert told() == (1, 0)
-    with (tmp_path / "abstransfer" / "learning" / "_simd.py").open("a") as file:
+    with (tmp_path / "abstransfer" / "learning" / "_simd.py").open(
+        "a", encoding="utf-8"
+    ) as file:
         file.write("# another file than that of the loop\n")
     in_a_notebook = 'import sys; sys.modules["ipykernel"] = sys;' + code
     assert told(in_a_notebook) == (0, 0), "a page of a fresh clone is as stored"

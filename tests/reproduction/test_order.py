@@ -21,7 +21,7 @@ SECOND = [
 def git(*arguments):
     """What git prints, by line."""
     said = subprocess.run(
-        ["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=True
+        ["git", *arguments], cwd=ROOT, capture_output=True, encoding="utf-8", check=True
     )
     return said.stdout.split()
 

