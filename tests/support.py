@@ -126,6 +126,6 @@ class Tabs:
             return False
         if not page.url.startswith("file:"):  # what it stored is out of reach
             return False
-        page.evaluate("sessionStorage.clear()")
+        page.evaluate("sessionStorage.clear(), localStorage.clear()")
         page.goto("about:blank")
         return not page.workers  # of their end a tab hears later

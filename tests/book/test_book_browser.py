@@ -177,9 +177,6 @@ def test_a_dark_page_is_printed_light(visit):
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
 
 
-@pytest.mark.xfail(
-    reason="page 0: the mark does not always reach the quiz", strict=False
-)
 @pytest.mark.parametrize("name", ["00_race", "01_building", "03_learning"])
 def test_a_word_that_was_searched_for_is_marked_to_the_end_of_a_page(visit, name):
     tab = visit()

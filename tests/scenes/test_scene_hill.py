@@ -225,7 +225,7 @@ def test_by_keyboard_alone_to_the_end(show):
     assert scene.focused.startswith("The land of values")
     scene.press(*["ArrowRight"] * 8, *["ArrowUp"] * 5)
     scene.wait(
-        f"p 0.70, q 0.55: worth {shown(Hill(p=0.7, q=0.55).value())}", "[aria-live]"
+        f"p 0.70, q 0.55: worth {shown(Hill(p=0.7, q=0.55).value())}", ".ab-said"
     )
     assert scene.root.locator(".ab-cross").count() == 1
     scene.press("Enter")
