@@ -12,7 +12,16 @@ import abstransfer
 PACKAGE = Path(abstransfer.__file__).parent
 # A module imports from its own room and from rooms before it.  Pictures come before the
 # reproduction, because that draws figures.
-ORDER = ["_paths", "foreign", "maps", "mdp", "abstraction", "navigation", "solvers"]
+ORDER = [
+    "_paths",
+    "_interrupts",
+    "foreign",
+    "maps",
+    "mdp",
+    "abstraction",
+    "navigation",
+    "solvers",
+]
 ORDER += ["policies", "builders", "driving", "learning", "experiments", "plotting"]
 ORDER += ["reproduction", "project", "gymnasium", "scenes", "exercises"]
 ORDER += ["classroom", "cli"]

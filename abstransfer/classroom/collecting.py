@@ -21,6 +21,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from .._interrupts import ends_in_time, interrupts_noted
 from ..exercises._model import page_of
 
 SHOWN = {"not checked": "answered", "no answer yet": "", "hint": ""}
@@ -104,22 +105,19 @@ def _run(path, shut, seconds, cell_seconds, megabytes) -> dict:
         limits = [str(cell_seconds), str(megabytes)]
         package = str(Path(__file__).parents[2])
         others = [package, *filter(None, [os.environ.get("PYTHONPATH")])]
-        process = subprocess.Popen(
-            [*shut, sys.executable, "-m", f"{__package__}.worker", copy, out, *limits],
-            cwd=place,
-            env=os.environ
-            | {"PYTHONPATH": os.pathsep.join(others), "MPLBACKEND": "agg"},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-        )
-        late = False
-        try:
-            process.wait(seconds)
-        except subprocess.TimeoutExpired:
-            late = True
-        finally:
+        with interrupts_noted() as heard:
+            process = subprocess.Popen(
+                [*shut, sys.executable, "-m", f"{__package__}.worker", copy, out]
+                + limits,
+                cwd=place,
+                env=os.environ
+                | {"PYTHONPATH": os.pathsep.join(others), "MPLBACKEND": "agg"},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+            late = not ends_in_time(process, seconds, heard)
             _stop(process)
         said = [{"outcome": "could not be run"}, *_lines(out)][-1]
     if late:

@@ -8,6 +8,7 @@ import os
 
 from ..experiments.arms import SCALES
 from ..experiments.plan import SEED
+from . import INTERRUPTED
 from .cost import EVERYTHING, say_how_long
 from .options import (
     add_folder,
@@ -76,6 +77,8 @@ def run(arguments) -> int:
         experiments = in_place_of_target(arguments.target)
     bars = _Bars(arguments.jobs)
     runs = {} if arguments.runs is None else {"n_runs": arguments.runs}
+    how_to_go_on = KEPT.format(arguments.out)
+    INTERRUPTED.append(how_to_go_on)
     try:
         reproduce(
             arguments.out,
@@ -87,9 +90,8 @@ def run(arguments) -> int:
             n_workers=arguments.jobs,
             on_start=lambda experiment: bars.new(experiment.folder),
         )
-    except (KeyboardInterrupt, ChildProcessError) as error:
-        said = [*map(str, error.args), KEPT.format(arguments.out)]
-        raise type(error)("; ".join(said)) from None
+    except ChildProcessError as error:
+        raise ChildProcessError(f"{error}; {how_to_go_on}") from None
     finally:
         bars.close()
     print(_summary(arguments.out))

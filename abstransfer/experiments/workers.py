@@ -12,13 +12,14 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Hashable, Mapping
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
 
+from .._interrupts import LOOK, interrupts_noted
 from ..driving import advised
 from .arms import Scale
 from .problem import Problem, target_tasks
@@ -114,23 +115,23 @@ def run_jobs(
     reader, writer = context.Pipe(duplex=False)
     n_workers = min(n_workers or os.cpu_count() or 1, len(jobs))
     pool = futures = None
-    try:
-        pool = ProcessPoolExecutor(
-            n_workers, context, initializer=_start_worker, initargs=(reader,)
-        )
-        with _interrupts_held():  # by the workers for good: Ctrl-C is for the parent
-            futures = _submit(do, jobs, pool)
-        _collect(futures, on_result)
-    except (BrokenProcessPool, OSError) as error:
-        if futures is None:
-            message = f"no worker process can be started ({error})"
-        elif isinstance(error, BrokenProcessPool):
-            message = "a worker process died: is there enough memory?"
-        else:
-            raise
-        raise ChildProcessError(message) from None
-    finally:
-        with _interrupts_held():
+    with interrupts_noted() as heard:
+        try:
+            pool = ProcessPoolExecutor(
+                n_workers, context, initializer=_start_worker, initargs=(reader,)
+            )
+            with _deaf():  # the workers, for good: Ctrl-C is for the parent
+                futures = _submit(do, jobs, pool)
+            _collect(futures, on_result, heard)
+        except (BrokenProcessPool, OSError) as error:
+            if futures is None:
+                message = f"no worker process can be started ({error})"
+            elif isinstance(error, BrokenProcessPool):
+                message = "a worker process died: is there enough memory?"
+            else:
+                raise
+            raise ChildProcessError(message) from None
+        finally:
             writer.close()  # the workers stop in the middle of their jobs
             if pool is not None:
                 pool.shutdown(cancel_futures=True)
@@ -140,13 +141,17 @@ def _submit(do, jobs, executor) -> dict:
     return {executor.submit(do, job): key for key, job in jobs.items()}
 
 
-def _collect(futures, on_result) -> None:
-    for future in as_completed(futures):
-        on_result(futures[future], future.result())
+def _collect(futures, on_result, heard=()) -> None:
+    """Hand over each outcome as it comes, until Ctrl-C is heard."""
+    waiting = futures
+    while waiting and not heard:
+        done, waiting = wait(waiting, LOOK, FIRST_COMPLETED)
+        for future in done:
+            on_result(futures[future], future.result())
 
 
 @contextmanager
-def _interrupts_held():
+def _deaf():
     """Let Ctrl-C wait; processes that are started meanwhile never hear it."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
