@@ -7,7 +7,7 @@
 // (abstransfer/scenes/ui/asked.js), and does not ask again.
 
 import { keep, kept, onReplaced, pageHere } from "../../../abstransfer/scenes/ui/kept.js";
-import { make } from "./make.js";
+import { make } from "../../../abstransfer/scenes/ui/elements.js";
 
 const SKIP = "skip"; // as scenes call it
 

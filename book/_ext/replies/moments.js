@@ -1,7 +1,7 @@
 // Links of the text to a moment of a scene, as "#race.t=77": the scene follows the
 // address by itself; here it comes into view, and a button leads back to the text.
 
-import { make } from "./make.js";
+import { make } from "../../../abstransfer/scenes/ui/elements.js";
 
 /** @type {any} */
 let back = null; // the button
