@@ -37,7 +37,7 @@ def test_a_scene_shows_itself_with_defaults_only(kind):
     assert data["text/plain"] == f"{kind.__name__}()"
     assert set(data) == {"text/plain", "text/html", VIEW}
     assert data["text/html"] == kind().html(), "the same bytes every time"
-    most = 100_000 if kind.__name__ == "Sights" else 40_000  # what all cells see
+    most = 50_000 if kind.__name__ == "Sights" else 40_000  # what all cells see
     assert len(data["text/html"]) < most
 
 

@@ -12,6 +12,14 @@ from .svg import at, group, path, picture, text, through
 
 CELL = 20  # units of the drawing
 STAR = "M0-7L1.6-2.2 6.7-2.2 2.6.8 4.1 5.7 0 2.7-4.1 5.7-2.6.8-6.7-2.2-1.6-2.2Z"
+# North, east, south, west: a line as long as is written behind it, and its head.
+ARROWS = (
+    ("v-", "m-2 2 2-2 2 2"),
+    ("h", "m-2-2 2 2-2 2"),
+    ("v", "m-2-2 2 2 2-2"),
+    ("h-", "m2-2-2 2 2 2"),
+)
+LEAST = 0.1  # likely: what has an arrow
 
 
 def draw_building(
@@ -78,18 +86,12 @@ def _middle(map_: Map, cell: int) -> tuple[float, float]:
 
 
 def _arrows(map_: Map, weights: np.ndarray) -> str:
-    """Return arrows, those of less than 0.02 left out."""
+    """Return arrows, those of less than LEAST left out."""
     drawn = []
-    for cell, way in zip(*np.nonzero(np.asarray(weights) > 0.02), strict=True):
-        x, y = _middle(map_, cell)
-        dx, dy = ((0, -1), (1, 0), (0, 1), (-1, 0))[way]
-        tip, barb = CELL * (0.15 + 0.3 * weights[cell, way]), 2.4
-        x_tip, y_tip = x + dx * tip, y + dy * tip
-        x_back, y_back = x_tip - dx * barb, y_tip - dy * barb
-        left = at(x_back + dy * barb, y_back + dx * barb)
-        right = at(x_back - dy * barb, y_back - dx * barb)
-        head = f"M{left}L{at(x_tip, y_tip)}L{right}"
-        drawn.append(f"M{at(x, y)}L{at(x_tip, y_tip)}{head}")
+    for cell, way in zip(*np.nonzero(np.asarray(weights) > LEAST), strict=True):
+        length = round(CELL * (0.15 + 0.3 * weights[cell, way]))
+        line, head = ARROWS[way]
+        drawn.append(f"M{at(*_middle(map_, cell))}{line}{length}{head}")
     return "".join(drawn)
 
 
