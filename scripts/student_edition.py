@@ -159,7 +159,8 @@ def _as_blank(node: ast.stmt, source: str) -> str:
     if isinstance(node, ast.Return):
         return "return ..."
     if isinstance(node, ast.Assign):
-        names = [ast.get_source_segment(source, target) for target in node.targets]
+        targets = [each for t in node.targets for each in getattr(t, "elts", [t])]
+        names = [ast.get_source_segment(source, target) for target in targets]
         return " = ".join([*names, "..."])
     return "..."
 

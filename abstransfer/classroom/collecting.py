@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from .._interrupts import ends_in_time, interrupts_noted
-from ..exercises._model import page_of
+from ..exercises._model import first_of, page_of
 
 SHOWN = {"not checked": "answered", "no answer yet": "", "hint": ""}
 PRIVATE = ("--user", "--map-root-user", "--net", "--pid", "--fork", "--kill-child")
@@ -148,8 +148,8 @@ def _lines(path: Path) -> list[dict]:
 
 
 def _order(key: str) -> tuple:
-    _, page, number = key.split("-")
-    return int(page), int(number.rstrip("bcdefghijklmnopqrstuvwxyz")), number
+    _, page, number = first_of(key).split("-")
+    return int(page), int(number), key
 
 
 def _rows(found: list[dict]) -> Iterable[list]:

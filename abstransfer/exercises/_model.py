@@ -117,7 +117,7 @@ class Exercise:
         for entry, wrong in zip(data["wrong"], self.wrong, strict=True):
             entry["answer"] = _plain(wrong.answer)
         return data | {
-            "kind": self.read.__name__,  # "numbers", "size" or "word"
+            "kind": self.read.__name__,  # "numbers", "size", "word" or "letters"
             "solution": _plain(self.solution),
             "also": [_plain(value) for value in self.also],
             "share": self.share,
@@ -183,6 +183,16 @@ def page_of(key: str) -> int | None:
     """Return the page that an id such as ex-3-1 or ex-3-1b names, or None."""
     match = re.fullmatch(r"ex-(\d{1,2})-\d+[b-z]?", key, re.ASCII)
     return int(match[1]) if match else None
+
+
+def first_of(key: str) -> str:
+    """
+    Return the id of the first question of an exercise.
+
+    >>> first_of("ex-8-1c"), first_of("ex-8-1")
+    ('ex-8-1', 'ex-8-1')
+    """
+    return key.rstrip("bcdefghijklmnopqrstuvwxyz")
 
 
 def all_exercises() -> Iterator[Exercise]:

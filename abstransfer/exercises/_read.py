@@ -111,6 +111,27 @@ def word(answer) -> str:
     return " ".join(re.sub(r"(?<=\w\w[^s])s$", "", w) for w in words)
 
 
+def letters(answer) -> str:
+    """
+    Return the letters that stand alone in a text, each once, in order.
+
+    >>> letters("b and A"), letters("A, B; not c"), letters("AB")
+    ('AB', 'ABC', 'AB')
+    """
+    blank(answer)
+    if isinstance(answer, (list, tuple, set, frozenset)):
+        answer = " ".join(map(str, answer))
+    if not isinstance(answer, str):
+        raise Unreadable(f"Letters in quotes are asked for, not {_kind(answer)}")
+    words = [word.upper() for word in re.findall("[A-Za-z]+", str.__str__(answer))]
+    found = {word for word in words if len(word) == 1}
+    if len(words) == 1 and len(words[0]) <= 4:  # AB
+        found = set(words[0])
+    if not found:
+        raise Unreadable("Write the letters, for instance: A and C")
+    return "".join(sorted(found))
+
+
 def numbers_of_actions(answer) -> np.ndarray:
     """Return a set of actions, sorted; a set, a list, an array or a mask will do."""
     blank(answer)
@@ -147,10 +168,11 @@ def formula(text: str) -> float:
     """
     Return the number that a text stands for; nothing in it is run.
 
-    >>> formula("1/(1 - 0.9)"), formula("5 goals"), formula("2**-1 %")
-    (10.000000000000002, 5.0, 0.5)
+    >>> formula("1/(1 - 0.9)"), formula("5 goals"), formula("2**-1 %"), formula("3(2)")
+    (10.000000000000002, 5.0, 0.5, 6.0)
     """
     bare = re.sub(r"(?<=[\d.)])\s*(%|per cent|[a-z]{2,})?[.\s]*$", "", text.strip())
+    bare = re.sub(r"(?<=[\d.)])\s*\(", "*(", bare)  # a product without its sign
     try:
         if len(bare) > LONGEST:
             raise ValueError("too long")

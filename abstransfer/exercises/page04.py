@@ -185,8 +185,7 @@ def near_goal(cell, goal, width, near):
         "ex-4-3",
         "From a cell one to four ways are open, and each shows one of eight sights; "
         "two may show the same. A goal is near, almost near or neither, and a cell is "
-        "in a room or not. How many abstract states can there be? And how many sets of "
-        "sights?",
+        "in a room or not. How many abstract states can there be?",
         972,
         also=(162,),
         hints=(
@@ -226,6 +225,50 @@ def near_goal(cell, goal, width, near):
                 "those that occur",
                 88,
                 "So many occur in the small building. Asked is how many there can be.",
+            ),
+        ],
+    ),
+    value(
+        "ex-4-3b",
+        "From a cell one to four ways are open, and each shows one of eight sights; "
+        "two may show the same. How many different sets of sights can there be?",
+        162,
+        hints=(
+            "Count by how many different sights there are: one, two, three or four.",
+            "In how many ways can two of eight be chosen? Their order does not count.",
+            "`import math`, then `sum(math.comb(8, n) for n in (1, 2, 3, 4))`.",
+        ),
+        wrong=[
+            Wrong(
+                "more ways than four",
+                255,
+                "A cell has four sides, so no more than four sights at once.",
+            ),
+            Wrong(
+                "no way open",
+                163,
+                "You count the empty set, too: a cell from which no way is open.",
+            ),
+            Wrong(
+                "only four different sights",
+                70,
+                "Those are the sets of four. Fewer ways may be open, and two may show "
+                "the same.",
+            ),
+            Wrong(
+                "in an order",
+                8 + 8 * 7 + 8 * 7 * 6 + 8 * 7 * 6 * 5,
+                "A set has no order: divide by the number of orders.",
+            ),
+            Wrong(
+                "a sight for each way",
+                8**4,
+                "That counts which way shows which sight. Asked are sets of sights.",
+            ),
+            Wrong(
+                "distance and room as well",
+                972,
+                "That many abstract states there are. Asked are the sights alone.",
             ),
         ],
     ),

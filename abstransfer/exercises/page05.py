@@ -372,8 +372,7 @@ def induce_nd(policies, rhos, n_abstract):
         tolerance=2e-3,
         hints=(
             "The dial raises each share to the power beta: square all three.",
-            "The squares are 0.36, 0.09 and 0.01. Do they sum to 1? For the second "
-            "question try `at.beta_policy` with a few numbers.",
+            "The squares are 0.36, 0.09 and 0.01. Do they sum to 1?",
             "Divide by their sum: `0.36 / (0.36 + 0.09 + 0.01)`.",
         ),
         wrong=[
@@ -385,6 +384,44 @@ def induce_nd(policies, rhos, n_abstract):
                 "times instead of to the power",
                 1.2,
                 "Beta is an exponent; and a probability is at most 1.",
+            ),
+        ],
+    ),
+    value(
+        "ex-5-3b",
+        "The shares are 0.6, 0.3 and 0.1. How large must beta be until the first "
+        "action has 99 percent? One decimal is enough.",
+        6.6303,
+        tolerance=1e-2,
+        hints=(
+            "Try `at.beta_policy` with a few numbers.",
+            "The first action has twice the share of the second; at beta = 2 it leads "
+            "four to one. By how much must it lead?",
+            "It leads by 2 to the power beta; that must be 99 to 1, nearly: "
+            "`np.log2(99)`.",
+        ),
+        wrong=[
+            Wrong(
+                "times instead of to the power",
+                49.5,
+                "At beta the lead is not twice beta, but 2 to the power beta.",
+            ),
+            Wrong(
+                "the natural logarithm",
+                float(np.log(99)),
+                "Which power of 2, not of e, is 99?",
+            ),
+            Wrong(
+                "not normalised",
+                float(np.log(0.99) / np.log(0.6)),
+                "The powers do not sum to 1. Below beta = 1 the first action even "
+                "loses.",
+            ),
+            Wrong(
+                "the second action alone",
+                float(np.log(0.01) / np.log(0.3)),
+                "There its power is 0.01; but the power of the first has become small, "
+                "too.",
             ),
         ],
     ),

@@ -257,9 +257,7 @@ def assemble(d, q, rho, terminal, n_abstract, gamma):
         "to "
         "the best action and spreads 0.05 over all 8; what falls on impossible "
         "actions is "
-        "given back in proportion. How likely is the best action? And how likely is it "
-        "after the first step, which goes half of the way, from 0.5? Write both, the "
-        "second after a comma.",
+        "given back in proportion. How likely is the best action in the target?",
         (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8),
         also=((0.5 + (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8)) / 2,),
         share=True,
@@ -289,6 +287,37 @@ def assemble(d, q, rho, terminal, n_abstract, gamma):
                 "over all 8; what the impossible have is given back *in proportion*.",
             ),
             Wrong("no softness", 1, "A little is kept for the other actions."),
+        ],
+    ),
+    value(
+        "ex-6-3b",
+        "The row was (0.5, 0.3, 0.2), and its first action is the best. The first step "
+        "goes half of the way to the target. How likely is the best action after it?",
+        (0.5 + (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8)) / 2,
+        share=True,
+        tolerance=1e-3,
+        hints=(
+            "Half of the way from a to b is the middle of the two.",
+            "It was 0.5. What the target gives to it is the first question.",
+            "`(0.5 + (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8)) / 2`.",
+        ),
+        wrong=[
+            Wrong(
+                "all of the way",
+                (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8),
+                "That is the target. The step goes half of the way.",
+            ),
+            Wrong(
+                "half of the target",
+                (0.95 + 0.05 / 8) / (0.95 + 3 * 0.05 / 8) / 2,
+                "Half of the way begins at 0.5, not at 0.",
+            ),
+            Wrong(
+                "not normalised",
+                (0.5 + 0.95 + 0.05 / 8) / 2,
+                "Five actions are impossible. What the target gives must sum to 1.",
+            ),
+            Wrong("no step", 0.5, "There it was before."),
         ],
     ),
 ]

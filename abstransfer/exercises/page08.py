@@ -3,6 +3,7 @@
 import numpy as np
 
 from ._model import Open, Wrong, function, stub, value
+from ._read import letters
 
 
 def advice_probability(t, tau):
@@ -97,6 +98,88 @@ def advice_probability(t, tau):
             ),
         ],
     ),
+    value(
+        "ex-8-1b",
+        "A soft guide has tau = 6 million. How large is lambda in step 1,500,000?",
+        0.75,
+        share=True,
+        hints=(
+            "Put the numbers into your function.",
+            "It falls along a straight line from 1 to 0. A quarter of tau is over.",
+            "(6 - 1.5) / 6, in millions.",
+        ),
+        wrong=[
+            Wrong(
+                "its own ways instead of the advice",
+                0.25,
+                "That is 1 - lambda, how likely the robot goes its own way.",
+            ),
+            Wrong("divided by t", 3, "Divide by tau: a probability is at most 1."),
+            Wrong("hard instead of soft", 1, "So the hard strategy would obey."),
+            Wrong("of all steps", 0.95, "Tau is 6 million, not the 30 of the run."),
+        ],
+    ),
+    value(
+        "ex-8-1c",
+        "A soft guide has tau = 6 million, and epsilon is 0.1. Which share of the "
+        "actions in step 3,000,000 is random?",
+        0.05,
+        share=True,
+        hints=(
+            "Two draws decide: first whether the advice is obeyed, then epsilon.",
+            "Half of tau is over: how often is epsilon-greedy asked at all?",
+            "(1 - 0.5) times 0.1.",
+        ),
+        wrong=[
+            Wrong(
+                "one in ten",
+                0.1,
+                "Epsilon-greedy decides only the steps in which the advice is not "
+                "obeyed.",
+            ),
+            Wrong(
+                "all of its own ways",
+                0.5,
+                "So often the robot goes its own way; most of these steps are greedy.",
+            ),
+            Wrong(
+                "added",
+                0.55,
+                "A random action needs both: no advice, and then epsilon.",
+            ),
+            Wrong(
+                "the greedy ones",
+                0.45,
+                "So often it takes what its notes say is best.",
+            ),
+        ],
+    ),
+    value(
+        "ex-8-1d",
+        "A soft guide has tau = 6 million. In how many million steps is it obeyed, on "
+        "average?",
+        3,
+        tolerance=1e-3,
+        hints=(
+            "Add up the probabilities of all steps.",
+            "They fall along a straight line from almost 1 to 0.",
+            "The sum of a straight line from 1 to 0 is half of its length.",
+        ),
+        wrong=[
+            Wrong("hard instead of soft", 6, "So often the hard strategy would obey."),
+            Wrong(
+                "steps, not millions",
+                2_999_999.5,
+                "Right, but the answer is asked for in millions.",
+            ),
+            Wrong("of all steps", 0.1, "That is the share of the 30 million steps."),
+            Wrong(
+                "the rest of the run",
+                24,
+                "These are the steps in which it has no say at all.",
+            ),
+        ],
+    ),
     function(
         "ex-8-2",
         "Write `advice_probability_hard`: the same for the hard strategy.",
@@ -155,29 +238,30 @@ def advice_probability_hard(t, tau):
         ],
     ),
     value(
-        "ex-8-1b",
-        "A soft guide has tau = 6 million. In how many million steps is it obeyed, on "
-        "average?",
-        3,
-        tolerance=1e-3,
+        "ex-8-2b",
+        "Four programs take hard advice with tau = 3. Which of them, A to D, obey in "
+        "the same steps as Algorithm 1? Write their letters.",
+        "AB",
+        read=letters,
         hints=(
-            "Add up the probabilities of all steps.",
-            "They fall along a straight line from almost 1 to 0.",
-            "The sum of a straight line from 1 to 0 is half of its length.",
+            "Write down for each program in which steps it obeys. How many are they?",
+            "Algorithm 1 obeys in its first three steps, whatever their numbers are.",
+            "A obeys at t = 1, 2, 3, and B at t = 0, 1, 2.",
         ),
         wrong=[
-            Wrong("hard instead of soft", 6, "So often the hard strategy would obey."),
             Wrong(
-                "steps, not millions",
-                2_999_999.5,
-                "Right, but the answer is asked for in millions.",
+                "by the sign alone",
+                "AC",
+                "C counts from 0: it obeys at 0, 1, 2 and 3, which are four steps.",
             ),
-            Wrong("of all steps", 0.1, "That is the share of the 30 million steps."),
+            Wrong("only the same text", "A", "Another program has three steps, too."),
             Wrong(
-                "the rest of the run",
-                24,
-                "These are the steps in which it has no say at all.",
+                "the shorter loops",
+                "BD",
+                "D counts from 1: it obeys at 1 and 2, which are two steps.",
             ),
+            Wrong("counted from 0", "B", "Another program has three steps, too."),
+            Wrong("all", "ABCD", "Count the steps of each: 3, 3, 4 and 2."),
         ],
     ),
 ]

@@ -15,6 +15,7 @@ from docutils import nodes
 from sphinx_exercise.nodes import is_exercise_node
 
 from abstransfer.exercises import Open, all_exercises, all_open_exercises
+from abstransfer.exercises._model import first_of
 from abstransfer.scenes import files
 
 KNOWN = {e.key: e for e in (*all_exercises(), *all_open_exercises())}
@@ -75,7 +76,7 @@ def parts(key: str) -> str:
                 f"{FOLDED}What a good answer holds</summary>\n{good}</details>",
             )
         )
-    found = [KNOWN[name] for name in (key, f"{key}b") if name in KNOWN]
+    found = [e for name, e in KNOWN.items() if first_of(name) == key]
     return "\n".join(data(e.as_data()) + "\n" + hints(e.hints) for e in found)
 
 

@@ -10,6 +10,7 @@ from bs4 import BeautifulSoup
 from support import ROOT, toc_pages
 
 from abstransfer.exercises import exercises_of, open_exercises_of
+from abstransfer.exercises._model import first_of
 
 TERMS = runpy.run_path(str(ROOT / "book" / "_ext" / "terms.py"))
 PAGES = toc_pages()
@@ -78,7 +79,7 @@ def test_each_exercise_has_a_box_and_its_hints_one_inside_the_other(html, page):
     (name,) = (name for name in PAGES if name.startswith(f"{page:02d}_"))
     text = soup(html / f"{name}.html")
     for key, exercise in (exercises_of(page) | open_exercises_of(page)).items():
-        place = text.find(id=key.rstrip("b"))
+        place = text.find(id=first_of(key))
         boxes = [box for box in place.select(".ab-answer") if f'"{key}"' in str(box)]
         hint, words = boxes[0].find_next_sibling("details"), []
         while hint:

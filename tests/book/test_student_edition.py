@@ -50,7 +50,7 @@ AFTER = """Easy.
     [
         ("x = 1  # blank", "x = ..."),
         ("x = 1  # not blank at all", "x = 1  # not blank at all"),
-        ("a, b = 1, 2  # blank", "a, b = ..."),
+        ("a, b = 1, 2  # blank", "a = b = ..."),
         ("for i in x:  # blank\n    y += i\nz = 1", "...\nz = 1"),
         ("for i in x:\n    y += i  # blank\nz = 1", "for i in x:\n    ...\nz = 1"),
         ("f(\n    1,\n    2,\n)  # blank\ng()", "...\ng()"),

@@ -20,6 +20,7 @@ from abstransfer.exercises import (
     exercises_of,
     open_exercises_of,
 )
+from abstransfer.exercises._model import first_of
 
 ALL = {exercise.key: exercise for exercise in all_exercises()}
 PAGES = sorted(
@@ -128,7 +129,7 @@ def cells_that_matter(cells):
                 k
                 for k in ALL
                 for label in LABEL.findall(source)
-                if k.rstrip("b") == label
+                if first_of(k) == label
             ]
             for key in keys:
                 code = [NAMED.get(key, ""), *code_of(ALL[key])]
@@ -243,6 +244,6 @@ def test_each_exercise_of_a_page_is_known_and_its_hints_stand_in_one_place(path)
     page = int(path.name[:2])
     known = exercises_of(page) | open_exercises_of(page)
 
-    assert set(stated) == {key.rstrip("b") for key in known}
+    assert set(stated) == {first_of(key) for key in known}
     for key, words in stated.items():
         assert "hint" not in words.lower(), f"{key}: hints are data in exercises/"

@@ -24,6 +24,7 @@ KINDS = (
     "ex-6-3",
     "ex-7-2",
     "ex-7-4",
+    "ex-8-2b",
 )  # each is read otherwise
 
 # What students typed, and its kinds.
@@ -50,6 +51,10 @@ TYPED = [
     *["nope", "maybe", "door", "the doors", "\u2013", "-", ".", ",", ";", "..."],
     *["1,2,3", "1;2;3"],
     *["3\u00d74", "3\u00b74", "6\u00f72", "1 \u2212 0,95", "1e400", "-1e400"],
+    *["-1(1-0.99^8)", "-1 (1-0.99^8)/(1-0.99)", "(2)(3)", "2(3", "5("],
+    *["2.(3)", "6/2(3)"],
+    *["A and B", "a, b", "B A", "AB", "ba", "A", "A, B and C.", "all", "A and 2"],
+    *["\u0131b", "a program: A", "A/B", "all four of them", "A & B (not C)"],
     "\u22121 \u00f7 (1 \u2212 0,95)",
 ]  # fmt: skip
 

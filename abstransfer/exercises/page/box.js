@@ -7,7 +7,11 @@ import { makeJudge } from "./judge.js";
 /** @import { Lines, Open, Reply, Task, Value } from "./types.d.ts" */
 
 const MARKED = /`([^`]+)`|\*([^*`\s][^*`]*)\*/g;
-const EXAMPLE = { numbers: "a number or a formula, such as 1/(1 - 0.9)", word: "a word" };
+const EXAMPLE = {
+  numbers: "a number or a formula, such as 1/(1 - 0.9)",
+  word: "a word",
+  letters: "letters, such as A and C",
+};
 
 /**
  * Words in which code and stress are marked, as nodes.

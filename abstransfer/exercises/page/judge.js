@@ -96,7 +96,7 @@ function readings(task, answer) {
  * @returns {Verdict}
  */
 function judgedValue(task, found) {
-  if (task.kind === "word") return judgedWord(task, found[0]);
+  if (typeof found[0] === "string") return judgedWord(task, found[0]);
   const single = found.filter((numbers) => numbers.length === 1).flat();
   if (!single.length) {
     const verdicts = found.map((several) => judgedSeveral(task, several));
@@ -113,7 +113,7 @@ function judgedValue(task, found) {
  * @returns {Verdict}
  */
 function judgedWord(task, answer) {
-  const read = (word) => READ.word(`${word}`);
+  const read = (word) => READ[task.kind](`${word}`);
   if (answer === read(task.solution)) return { name: "right" };
   const mistake = task.wrong.findIndex((wrong) => answer === read(wrong.answer));
   if (mistake >= 0) return { name: "mistake", mistake };

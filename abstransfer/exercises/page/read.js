@@ -11,6 +11,7 @@ const SIGNS = [
   [/\^/g, "**"],
 ];
 const UNIT = /(?<=[\d.)])\s*(%|per cent|[a-z]{2,})?[.\s]*$/;
+const PRODUCT = /(?<=[\d.)])\s*\(/g;
 const LONGEST = 200; // letters of a formula
 const NAN = "There is a `nan` in it, which comes from 0/0 or from inf - inf. " +
   "Where could that happen?";
@@ -47,11 +48,26 @@ function word(text) {
   return words.map((w) => w.replace(/(?<=[\p{L}\p{N}_]{2}[^s])s$/u, "")).join(" ");
 }
 
+/**
+ * The letters that stand alone in a text, each once, in order.
+ *
+ * @param {string} text
+ * @returns {string}
+ */
+function letters(text) {
+  const words = (text.match(/[A-Za-z]+/g) ?? []).map((each) => each.toUpperCase());
+  const isOne = words.length === 1 && words[0].length <= 4; // AB
+  const found = isOne ? [...words[0]] : words.filter((each) => each.length === 1);
+  if (!found.length) throw new Unreadable("Write the letters, for instance: A and C");
+  return [...new Set(found)].sort().join("");
+}
+
 /** By kind, what reads an answer. */
 export const READ = {
   numbers,
   size: (text) => numbers(text).map(Math.abs),
   word,
+  letters,
 };
 
 /**
@@ -100,7 +116,8 @@ const TOKEN =
  * @returns {number}
  */
 export function formula(text) {
-  const bare = text.trim().replace(UNIT, "").replace(/#.*/, "").trim(); // Python's comments
+  const bare = text.trim().replace(UNIT, "").replace(/#.*/, "").trim() // Python's comments
+    .replace(PRODUCT, "*("); // without its sign
   try {
     if (bare.length > LONGEST) throw new RangeError("too long");
     return worth(tokens(bare));

@@ -4,9 +4,9 @@ export type Wrong = { name: string; hint: string; answer?: number | string };
 
 type Known = { id: string; task: string; hints: string[]; wrong: Wrong[] };
 
-/** A number, a size (its sign does not count) or a word. */
+/** A number, a size (its sign does not count), a word, or letters that name things. */
 export type Value = Known & {
-  kind: "numbers" | "size" | "word";
+  kind: "numbers" | "size" | "word" | "letters";
   solution: number | string;
   also: (number | string)[];
   share: boolean;
