@@ -6,8 +6,8 @@
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
 # make zip    pack the built book and the student edition into build, with checksums
-# make nightly  the long forms of the tests that draw what happens, an hour; and
-#   whether all that is pinned can be had for each Python
+# make nightly  the long forms of the tests that draw what happens, an hour; Run All of
+#   each page for students; whether all that is pinned can be had for each Python
 # make bench  measure the learning loops beside other people's, and the pages
 # make clean  remove what these made
 #
@@ -95,6 +95,8 @@ nightly: .venv/.book system
 	DISTURBANCES=250 $(BIN)/python -m pytest --quiet --capture=tee-sys \
 	  tests/experiments/test_store.py tests/cli/test_interrupts.py \
 	  tests/scenes/test_addresses.py
+	EVERY_PAGE=1 $(BIN)/python -m pytest --quiet -k run_all \
+	  tests/book/test_student_edition.py
 	$(PIP) uv
 	for version in $(PYTHONS); do \
 	  $(BIN)/uv pip compile pyproject.toml --extra test --extra lab -c constraints.txt \

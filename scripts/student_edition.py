@@ -8,9 +8,10 @@ One source serves both editions.  In a solution's code, a statement that ends wi
 definitions, what has a name, and ``check``: what prints or loops would tell the answer,
 or fail on a blank.  The rest of the solution, its text and its cells without a blank,
 is left out.  Each exercise ends with a ``check``; that of an open one takes words.
+A question that no ``check`` judges has a blank of its own.
 
 The text is plain Markdown (`plain_markdown`), and the first line of code says whose
-work it is.
+work it is.  What a page comes to is folded: it answers some of the exercises.
 """
 
 from __future__ import annotations
@@ -20,10 +21,14 @@ import ast
 import copy
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 import nbformat
 from plain_markdown import Course, plain, read_course
+
+from abstransfer.exercises import all_exercises
+from abstransfer.exercises._model import first_of
 
 BOOK = Path(__file__).parents[1] / "book"
 WHOSE = 'student = "..."  # your name'
@@ -32,6 +37,22 @@ OPEN = """\
 # What you found, in words; code in cells of its own, above.
 answer = ...
 check("{key}", answer)"""
+KNOWN = {exercise.key: exercise for exercise in all_exercises()}
+STATED = re.compile(
+    r"^```\{exercise-start\}\n:label: (\S+)\n```\n(.*?)^```\{exercise-end\}",
+    re.M | re.S,
+)
+CODE = re.compile(r"^```.*?^```$|^    .*$|^\*\*.*\*\*$", re.M | re.S)  # or a title
+TAKEAWAYS = re.compile(r"^## Takeaways\n\n(.*?)(?=\n\n#|\Z)", re.M | re.S)
+FOLDED = """\
+## Takeaways
+
+<details>
+<summary>After the exercises: what this page comes to</summary>
+
+{}
+
+</details>"""
 MARK = re.compile(r"#\s*blank\s*$", re.MULTILINE)
 BARE_TWICE = re.compile(r"^( *)\.\.\.(?:\n\1\.\.\.)+$", re.MULTILINE)
 START = re.compile(
@@ -43,25 +64,34 @@ END = re.compile(r"^(`{3,})\{solution-end\}[^\S\n]*\n\1[^\S\n]*$", re.M)
 def student_edition(notebook, course: Course):
     """Return a copy of a notebook for students."""
     notebook = copy.deepcopy(notebook)
-    cells, in_solution, key, asked = [], False, "", ""
+    cells, in_solution, key, asked, stated = [], False, "", "", {}
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
+            stated |= {
+                k: plain(text, course) for k, text in STATED.findall(cell.source)
+            }
             found = enumerate(pieces(cell.source, in_solution))
             for i, (text, in_solution, edge) in found:
                 shown = "" if in_solution else plain(text, course)
+                shown = TAKEAWAYS.sub(lambda told: FOLDED.format(told[1]), shown)
                 if shown:
                     more = nbformat.v4.new_markdown_cell(shown, id=f"{cell.id}-{i}")
                     cells.append(more)
                 if edge and not in_solution:
                     key, asked = edge[2], ""
-                elif edge and not _has(cells, name := f'check("{key}"'):
-                    text = _line_with(name, asked) or OPEN.format(key=key)
-                    more = nbformat.v4.new_code_cell(text, id=f"check-{key}")
-                    cells.append(more)
+                elif edge:
+                    for n, question in enumerate(not_judged(key, stated.get(key, ""))):
+                        text = f"{_comment(question)}\nin_words = ..."
+                        more = nbformat.v4.new_code_cell(text, id=f"words-{key}-{n}")
+                        cells.append(more)
+                    if not _has(cells, name := f'check("{key}"'):
+                        text = _line_with(name, asked) or OPEN.format(key=key)
+                        more = nbformat.v4.new_code_cell(text, id=f"check-{key}")
+                        cells.append(more)
         elif in_solution:
             asked += cell.source + "\n"
             if MARK.search(cell.source):
-                cell.source = kept(stub(cell.source))
+                cell.source = task_in(kept(stub(cell.source)))
                 cell.outputs, cell.execution_count = [], None
                 cell.metadata.pop("jupyter", None)  # a solution is folded, a blank not
                 cells.append(cell)
@@ -74,6 +104,56 @@ def student_edition(notebook, course: Course):
         cells.insert(1, nbformat.v4.new_code_cell(text, id="student"))
     notebook.cells = cells
     return notebook
+
+
+def questions(text: str) -> list[str]:
+    """
+    Return the questions of an exercise, one a sentence.
+
+    >>> questions("**Why?**\\nTake `x`. How large is it? And `y`?")
+    ['How large is it?', 'And `y`?']
+    """
+    lines = CODE.sub("", text).split("\n")
+    found = [part for line in lines for part in re.split(r"(?<=[.?!]) (?=[A-Z])", line)]
+    return [part for part in found if part.endswith("?")]
+
+
+def not_judged(key: str, text: str) -> list[str]:
+    """Return the questions of an exercise that no ``check`` is about."""
+    found = questions(text)
+    judged = [exercise for name, exercise in KNOWN.items() if first_of(name) == key]
+    if not judged:  # an open exercise ends with a cell for words anyway
+        return found if found[1:] else []
+    for exercise in judged:
+        about = max(found, key=lambda q: _in_common(q, exercise.task), default="")
+        least = 0.65 if exercise.cases else 0.0  # code need not be asked for by a "?"
+        if about and _in_common(about, exercise.task) > least:
+            found.remove(about)
+    return found
+
+
+def _in_common(question: str, task: str) -> float:
+    """Return which share of the words of a question its task has, too."""
+    words, others = (
+        set(re.findall(r"[a-z]{3,}|[\d.,]*\d", t.lower())) for t in (question, task)
+    )
+    return len(words & others) / max(len(words), 1)
+
+
+def task_in(code: str) -> str:
+    """Return a cell with a blank under what it asks for, where that is a value."""
+    for key in re.findall(r'^check\("(.*?)"', code, re.M):
+        if not (exercise := KNOWN.get(key)) or exercise.cases:
+            continue
+        start = exercise.task.rfind(". ", 0, exercise.task.rfind("?")) + 2
+        code = f"{_comment(exercise.task[max(start, 2) if start > 1 else 0 :])}\n{code}"
+    return code
+
+
+def _comment(text: str) -> str:
+    """Return a text as a comment, without the marks of Markdown and formulas."""
+    bare = re.sub(r"(?<!\w)\*(\w+)\*(?!\w)", r"\1", text.replace("$", ""))
+    return textwrap.fill(bare, 79, initial_indent="# ", subsequent_indent="# ")
 
 
 def _has(cells: list, code: str) -> bool:
