@@ -2,7 +2,8 @@
 # make test   check everything: style, package, notebooks, built pages
 # make test-core  check the method only, in half a minute
 # make test-browsers  compare all scenes in Chromium, Firefox and WebKitGTK
-# make lab    open the notebooks in JupyterLab
+# make lab    open the notebooks, with solutions, in JupyterLab
+# make lab-student  open the student edition there
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
 # make student  write the student edition, with blanks, into build/student
 # make zip    pack the built book and the student edition into build, with checksums
@@ -26,12 +27,12 @@ PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is p
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core test-browsers nightly lab pdf student zip bench clean env system
+.PHONY: book test test-core test-browsers nightly lab lab-student pdf student zip bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core test-browsers nightly lab pdf student zip bench clean env system:
+book test test-core test-browsers nightly lab lab-student pdf student zip bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -136,8 +137,15 @@ zip: book student
 
 # Trusted, or JupyterLab would not show the stored pictures.
 lab: .venv/.lab
+	@echo "These pages hold the solutions. To solve the exercises: make lab-student"
 	$(BIN)/jupyter-trust book/*.ipynb
 	$(BIN)/jupyter-lab book
+
+# What was written there before is kept.
+lab-student: .venv/.lab
+	test -d build/student || $(MAKE) --no-print-directory student
+	$(BIN)/jupyter-trust build/student/*.ipynb
+	$(BIN)/jupyter-lab build/student
 
 clean:
 	rm -rf .venv build dist .pytest_cache .ruff_cache .hypothesis

@@ -91,7 +91,7 @@ def student_edition(notebook, course: Course):
         elif in_solution:
             asked += cell.source + "\n"
             if MARK.search(cell.source):
-                cell.source = task_in(kept(stub(cell.source)))
+                cell.source = kept(stub(cell.source))
                 cell.outputs, cell.execution_count = [], None
                 cell.metadata.pop("jupyter", None)  # a solution is folded, a blank not
                 cells.append(cell)
@@ -138,16 +138,6 @@ def _in_common(question: str, task: str) -> float:
         set(re.findall(r"[a-z]{3,}|[\d.,]*\d", t.lower())) for t in (question, task)
     )
     return len(words & others) / max(len(words), 1)
-
-
-def task_in(code: str) -> str:
-    """Return a cell with a blank under what it asks for, where that is a value."""
-    for key in re.findall(r'^check\("(.*?)"', code, re.M):
-        if not (exercise := KNOWN.get(key)) or exercise.cases:
-            continue
-        start = exercise.task.rfind(". ", 0, exercise.task.rfind("?")) + 2
-        code = f"{_comment(exercise.task[max(start, 2) if start > 1 else 0 :])}\n{code}"
-    return code
 
 
 def _comment(text: str) -> str:

@@ -89,7 +89,7 @@ def test_cells_of_a_solution_are_stubs_or_left_out():
     assert [*sources[:2], *sources[3:]] == [
         "print(1)",
         f"{student_edition.WHOSE}\n\n{student_edition.IMPORT}",
-        '# What is the return of its way?\ny = ...\ncheck("ex-1-1", y)',
+        'y = ...\ncheck("ex-1-1", y)',
         "## Next",
     ]
     assert edition.cells[3].outputs == []
@@ -364,12 +364,22 @@ def test_each_question_has_a_blank_of_its_own(edition, request):
     assert len(words) == len(IN_WORDS.get(name, ()))
     for source, part in zip(words, IN_WORDS.get(name, ()), strict=True):
         assert part in source.replace("\n# ", " ")
-    for source in cells:
-        for key in CHECKED.findall(source):
-            if key in KNOWN and not KNOWN[key].cases:
-                asked = source.split("\n...")[0].replace("\n# ", " ").split("\n")[0]
-                assert asked.startswith("# ")
-                assert asked[2:] in KNOWN[key].task.replace("*", "")
+
+
+def test_a_blank_for_a_value_says_first_what_is_asked_for(page):
+    """In JupyterLab the first line of a folded solution is what one sees of it."""
+    for cell in blank_cells(page):
+        asked = [f"# {KNOWN[k].task}" for k in CHECKED.findall(cell.source)]
+        if asked and not KNOWN[CHECKED.findall(cell.source)[-1]].cases:
+            comment = re.match(r"(?:# .*\n)+", cell.source)[0]
+            assert comment[2:].replace("\n# ", " ").strip() in asked[-1].replace(
+                "*", ""
+            )
+
+
+def test_the_first_line_of_a_folded_solution_is_no_blank(page):
+    for cell in blank_cells(page):
+        assert not MARK.search(cell.source.partition("\n")[0])
 
 
 # Those that run in seconds; in the night all: make nightly
@@ -378,10 +388,10 @@ RUN = [p for p in PAGES if p.stem in CHEAP or "EVERY_PAGE" in os.environ]
 
 
 @pytest.mark.parametrize("path", RUN, ids=lambda path: path.stem)
-def test_run_all_without_an_answer_gives_words(path):
+def test_run_all_without_an_answer_gives_words(path, tmp_path):
     edition = student_edition.student_edition(nbformat.read(path, 4), COURSE)
     keys = keys_of(edition)
-    kernel = {"metadata": {"path": path.parent}}
+    kernel = {"metadata": {"path": tmp_path}}  # it is handed out alone
     NotebookClient(edition, timeout=1000, resources=kernel).execute()
 
     said = json.dumps([cell.get("outputs") for cell in edition.cells])
