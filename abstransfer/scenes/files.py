@@ -55,16 +55,17 @@ def page_script(name: str, spec: dict) -> str:
     BundleError
         If the bundle is missing, or older than its sources, and cannot be made.
     """
-    return f"((python) => {{\n{bundled(name)}}})({said(spec=spec)});\n"
+    return f"((python) => {{\n{script(name)}}})({said(spec=spec)});\n"
 
 
 def module(name: str, spec: dict) -> str:
     """Return the module of a widget: the same script, and what shows the scene."""
     try:
-        script = f"const python = {said(spec=spec, isWidget=True)};\n{bundled(name)}"
+        head = f"const python = {said(spec=spec, isWidget=True)};\n"
+        body = script(name)
     except BundleError as error:
         return f"export default {{ render: {_sorry(error)} }};\n"
-    return f"{script}export default {{ render: python.render }};\n"
+    return f"{head}{body}export default {{ render: python.render }};\n"
 
 
 @cache
@@ -77,6 +78,12 @@ def style() -> str:
         f"@media not print{{{DARK}{{color-scheme:dark;{dark}}}}}\n"
     )
     return rules + re.sub(r"/\*.*?\*/\n*", "", text, flags=re.DOTALL)
+
+
+def script(name: str) -> str:
+    """Return the bundle of a scene behind its worker, which is written as a function."""
+    worker = f"python.worker = (self) => {{\n{bundled('worker')}}};\n"
+    return worker + bundled(name)
 
 
 def bundled(name: str) -> str:
@@ -104,7 +111,7 @@ def said(**more) -> str:
     maps = {name: str(read_map(name)) for name in ("source", "target")}
     said = {"palette": _small_palette(), "mapTexts": maps, "paper": _paper()}
     said["drawing"] = _drawing()
-    return json.dumps({**said, "workerSource": bundled("worker"), **more})
+    return json.dumps({**said, **more})
 
 
 def _drawing() -> dict:

@@ -193,7 +193,6 @@ export interface Scene {
   choice: (name: string, options: object) => HTMLElement;
   toggle: (name: string, options: object) => HTMLElement;
   button: (text: string, act: () => void, options?: ButtonOptions) => HTMLElement;
-  timeline: (name: string, options?: TimelineOptions) => HTMLElement;
   bet: (name: string, options: { question: string; options: Record<string, any> }) => HTMLElement;
   betResult: (name: string, truth: string, other?: string) => string;
   bets: Record<string, Record<string, string>>;
@@ -252,7 +251,7 @@ export interface Said {
     posts: string; // a pattern
     tabSizes: number[];
   };
-  workerSource: string;
+  worker: (scope: any) => void; // the script of a worker; see engine/worker.js
   paper: {
     arms: { name: string; guide: string | null; strategy: string; tau: number }[];
     taus: number[];

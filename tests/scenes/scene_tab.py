@@ -228,7 +228,7 @@ def scripts(body):
     names = sorted(set(re.findall(r'data-scene="(\w+)"', body)))
     texts = [
         f"<script>said.{name} = {front.said(spec=KINDS[name].spec())};"
-        f"((python) => {{\n{front.bundled(name)}}})(said.{name});</script>"
+        f"((python) => {{\n{front.script(name)}}})(said.{name});</script>"
         for name in names
     ]
     return "<script>const said = {};</script>" + "".join(texts)

@@ -55,7 +55,8 @@ def test_a_changed_number_is_noticed():
 def test_the_front_end_without_a_page(path, tmp_path):
     said = tmp_path / "said.json"
     fields = {name: kind.spec()["fields"] for name, kind in KINDS.items()}
-    said.write_text(front.said(isWidget=True, fields=fields), encoding="utf-8")
+    more = {"isWidget": True, "fields": fields, "worker": front.bundled("worker")}
+    said.write_text(front.said(**more), encoding="utf-8")
     test = [bundle.find_deno(), "test", "--no-check", "--allow-read"]
     done = subprocess.run(
         [*test, path, "--", said],

@@ -6,9 +6,9 @@ import { wholeAdvice } from "./whole.js";
 import { parseMap } from "../engine/maps.js";
 import { A, LABELS, navigationTasks } from "../engine/navigation.js";
 import { barChart } from "../ui/bars.js";
-import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
 import { list, make, number, place as placeOf, plural } from "../ui/dom.js";
+import { layered } from "../ui/layers.js";
 import { defineScene } from "../ui/scene.js";
 import { sight as sightOf, sights } from "../ui/sights.js";
 
@@ -27,7 +27,7 @@ defineScene("ballot", {
     const steps = [["A box with more votes", -1], ["A box with fewer votes", 1]].map(([text, by]) =>
       button(text, () => scene.set({ z: election.boxes[place() + by] }))
     );
-    const view = building({
+    const view = layered({
       label: "The small building: lit states vote, arrows are votes",
       describe: (cell) => describe(cell),
       onAct: ({ cell }) => act(cell),

@@ -1,12 +1,11 @@
 // Learning runs in workers, so that the page stays free, with progress and a stop.
 //
-// Under file:// a worker can only be made from text that the page holds: the bundle of
-// `worker.js`.  Where none can be made, and where one fails, falls silent or ends, the
-// page itself learns, one window at a time.  A run is the same wherever it is learned,
+// Under file:// a worker can only be made from text that the page holds: the source of
+// the function `worker`, see worker.js.  Where none can be made, and where one fails,
+// falls silent or ends, the page itself learns, by the same function.  A run is the same wherever it is learned,
 // so what a lost worker has told stands, and is not told again.
 
-import { workerSource } from "../python.js";
-import { Run } from "./learning.js";
+import { worker } from "../python.js";
 
 /** @import { Job, LearnOptions, Learning } from "../types.d.ts" */
 
@@ -71,7 +70,7 @@ export function learnAll(jobs, { onWindow, onDone, nWorkers, look = LOOK } = {})
 function makeUrl() {
   try {
     if (typeof Worker === "undefined") return null;
-    return URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" }));
+    return URL.createObjectURL(new Blob([`(${worker})(self)`], { type: "text/javascript" }));
   } catch {
     return null;
   }
@@ -129,10 +128,12 @@ function inWorker(member, job, tell) {
  * @param {() => boolean} isStopped
  */
 async function inPage(job, tell, isStopped) {
-  const run = new Run(job.world, job.guide, job.rule, job.seed, job.key, job.notes);
-  for (let i = 0; i < job.steps / job.window && !isStopped(); i++) {
-    tell(i, run.learn(job.window));
+  /** @type {any} */
+  const scope = {};
+  worker(scope);
+  for (const { i, goals, q } of scope.work(job)) {
+    if (q || isStopped()) return q;
+    if (i !== undefined) tell(i, goals);
     await new Promise((resume) => setTimeout(resume)); // let the page draw
   }
-  return run.q;
 }

@@ -6,6 +6,7 @@ import { runRows } from "../parts/rows.js";
 import { choice } from "../ui/controls.js";
 import { armStyle, count, make, number } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
+import { timeline } from "../ui/timeline.js";
 import { combine, findingsOf, HOLDS, SAME, UNDECIDED, verdictsOf } from "./verdicts.js";
 
 const CLAIMS = { 1: "1", 2: "2", 3: "3", 4: "4", 5: "5", [SAME]: "each arm against itself" };
@@ -49,7 +50,7 @@ defineScene("filling", {
       }),
       scene.row(scene.choice("claim", { label: "Claim", options: CLAIMS }), order.node),
       title,
-      scene.timeline("n", { label: "Runs", speeds: [1, 4, 12] }),
+      timeline(scene, "n", { label: "Runs", speeds: [1, 4, 12] }),
       judged,
       make(
         "div",

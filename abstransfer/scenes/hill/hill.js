@@ -5,6 +5,7 @@ import { runFor } from "../engine/absprob_pi.js";
 import { button } from "../ui/controls.js";
 import { drawn, make, marker, number } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
+import { timeline } from "../ui/timeline.js";
 import * as land from "./land.js";
 
 const [LEFT, TOP, SIDE] = [40, 14, 280]; // of the drawing
@@ -184,7 +185,7 @@ defineScene("hill", {
           "div",
           { class: "ab-body" },
           board,
-          scene.timeline("t", { label: "Iteration", speeds: [1, 4, 15] }),
+          timeline(scene, "t", { label: "Iteration", speeds: [1, 4, 15] }),
         ),
         make(
           "div",

@@ -8,10 +8,11 @@ import { mean } from "../engine/solvers.js";
 import { BET, given, HOW, LUCKS, STARTS, take, visited } from "./runs.js";
 import { mapTexts } from "../python.js";
 import { barChart, formula } from "../ui/bars.js";
-import { building } from "../ui/building.js";
 import { list, make, number, place } from "../ui/dom.js";
+import { layered } from "../ui/layers.js";
 import { defineScene } from "../ui/scene.js";
 import { nameOf } from "../ui/sights.js";
+import { timeline } from "../ui/timeline.js";
 
 defineScene("microscope", {
   title: "Q-learning under the microscope",
@@ -19,7 +20,7 @@ defineScene("microscope", {
     let [map, run, q, done] = [null, null, null, 0];
     let counts = null; // cells visited by each start, by luck
 
-    const view = building({
+    const view = layered({
       label: "The building, with the largest value of each cell",
       describe: (cell) => describe(cell),
       onAct: ({ cell }) => chooseGoal(cell),
@@ -52,7 +53,7 @@ defineScene("microscope", {
           "div",
           { class: "ab-body" },
           view.node,
-          scene.timeline("t", {
+          timeline(scene, "t", {
             label: "Step",
             moments: { label: "Next change", find: (t) => nextChange(t) },
           }),

@@ -5,9 +5,9 @@ import { parseMap } from "../engine/maps.js";
 import { FEATURES, navigationTasks } from "../engine/navigation.js";
 import { ALL, counts, looks, tally, wrong } from "./counts.js";
 import { findings } from "./found.js";
-import { building } from "../ui/building.js";
 import { button, toggle } from "../ui/controls.js";
 import { make, place, plural } from "../ui/dom.js";
+import { layered } from "../ui/layers.js";
 import { defineScene } from "../ui/scene.js";
 import { sight, sights } from "../ui/sights.js";
 
@@ -24,7 +24,7 @@ defineScene("paint", {
 
     const sides = SIDES.map(([task, map, size], i) => {
       /** @type {any} */ const side = { task, of: map, size, tasks: null };
-      side.view = building({
+      side.view = layered({
         label: `The ${size} building, painted`,
         describe: (cell) => describe(side, cell),
         onAct: ({ cell }) => act(side, cell),

@@ -7,11 +7,12 @@ import { ARMS } from "../engine/paper.js";
 import { NAMES, stateAt, sum, WINDOWS } from "../parts/runs.js";
 import { spec } from "../python.js";
 import { barChart } from "../ui/bars.js";
-import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
 import { armStyle, count, drawn, list, make, newId, number, place as placeOf } from "../ui/dom.js";
+import { layered } from "../ui/layers.js";
 import { middle } from "../ui/plan.js";
 import { defineScene } from "../ui/scene.js";
+import { timeline } from "../ui/timeline.js";
 import * as runs from "../parts/runs.js";
 
 const { racers: RACERS } = spec;
@@ -28,16 +29,16 @@ defineScene("race", {
     let parting = null; // { t, s }
     let another = ""; // said of a race whose curves went with its settings
 
-    const view = building({ label: "" });
+    const view = layered({ label: "" });
     view.svg.style.maxHeight = "75vh"; // all in sight: nothing to scroll
     const words = make("p", {});
     const reached = barChart({ label: "Goals reached so far", format: count });
     const ticks = make("datalist", { id: newId() });
-    const timeline = scene.timeline("t", {
+    const line = timeline(scene, "t", {
       speeds: [4, 20, 100],
       moments: { label: "Next event", find: nextEvent },
     });
-    timeline.querySelector("input").setAttribute("list", ticks.id);
+    line.querySelector("input").setAttribute("list", ticks.id);
     // The second click of two would stop what the first began.
     const go = button("", ({ detail }) => detail > 1 || scene.set({ full: !scene.state.full }), {
       primary: true,
@@ -62,7 +63,7 @@ defineScene("race", {
     scene.add(
       words,
       view.node,
-      timeline,
+      line,
       ticks,
       reached.node,
       scene.slider("luck", { label: "Luck (run of the experiment)" }),

@@ -3,12 +3,13 @@
 
 import { runFor } from "../engine/absprob_pi.js";
 import { parseMap } from "../engine/maps.js";
+import { layered } from "../ui/layers.js";
 import { nameOf } from "../ui/sights.js";
 import { formula } from "../ui/bars.js";
-import { building } from "../ui/building.js";
 import { count, make, number, place, plural } from "../ui/dom.js";
 import { lineChart } from "../ui/lines.js";
 import { defineScene } from "../ui/scene.js";
+import { timeline } from "../ui/timeline.js";
 import * as waves from "./waves.js";
 
 const SLICE = 12; // milliseconds of sweeping between two pictures
@@ -24,7 +25,7 @@ defineScene("ripple", {
     let [map, wave, totals, timer, end] = [null, null, [], null, null];
     let work; // what sweeps, a little at a time
 
-    const view = building({
+    const view = layered({
       label: "The building, with what each cell believes to be worth",
       describe: (cell) => `${place(map, cell)}: ${believes(cell)}`,
       onAct({ cell }) {
@@ -74,7 +75,7 @@ defineScene("ripple", {
       ),
       view.node,
       arrows,
-      scene.timeline("k", { label: "Sweep", speeds: [2, 5, 15] }),
+      timeline(scene, "k", { label: "Sweep", speeds: [2, 5, 15] }),
       words,
       own,
       equation.node,

@@ -5,9 +5,9 @@ import { DIRECTIONS, parseMap } from "../engine/maps.js";
 import { A, LABELS, navigationTasks } from "../engine/navigation.js";
 import { nextWord, seedState } from "../engine/random.js";
 import { mapTexts, spec } from "../python.js";
-import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
 import { make, place, plural } from "../ui/dom.js";
+import { layered } from "../ui/layers.js";
 import { defineScene } from "../ui/scene.js";
 import { sight } from "../ui/sights.js";
 
@@ -58,7 +58,7 @@ defineScene("sights", {
     let [tasks, arrows, walk, pointed, timer] = [null, null, [], null, null];
     const { limits } = scene;
 
-    const view = building({
+    const view = layered({
       label: "The building of a robot",
       describe: (cell) => `${place(tasks.map, cell)}: ${told(cell)}`,
       onAct: ({ cell }) => act(cell),

@@ -11,6 +11,7 @@ import { likeness, nameOf, overlay, seenIn, stepText } from "./words.js";
 import { barChart } from "../ui/bars.js";
 import { button } from "../ui/controls.js";
 import { armStyle, count, list, make, number, plural } from "../ui/dom.js";
+import { addLayers } from "../ui/layers.js";
 import { defineScene } from "../ui/scene.js";
 
 const SHOWN = {
@@ -38,7 +39,8 @@ defineScene("studio", {
         showCell();
       },
     });
-    const { tools, view, legal } = me;
+    const { tools, legal } = me;
+    const view = addLayers(me.view);
     const [counts, seen, told] = [1, 2, 3].map(() => make("p", {}));
     const lines = make("tbody");
     const bars = barChart({

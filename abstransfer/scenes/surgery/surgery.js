@@ -2,9 +2,9 @@
 // their notes shows when these are changed, and nothing else.
 
 import { barChart } from "../ui/bars.js";
-import { building } from "../ui/building.js";
 import { button } from "../ui/controls.js";
 import { count, make, number, plural } from "../ui/dom.js";
+import { layered } from "../ui/layers.js";
 import { lineChart } from "../ui/lines.js";
 import { defineScene } from "../ui/scene.js";
 import * as runs from "../parts/runs.js";
@@ -52,7 +52,7 @@ defineScene("surgery", {
     const x = { label: "steps after the advice", format: (n) => `${number(n / 1e6)} M`, min: 0 };
     const y = { label: "goals, window by window", min: 0 };
     const chart = lineChart({ label: "Goals after the advice, by step", x, y, height: 220 });
-    const view = building({ label: "Where the robot has notes" });
+    const view = layered({ label: "Where the robot has notes" });
     const shown = make("div", { class: "ab-body" }, make("p", { class: "ab-ylabel" }), view.node);
     const words = make("p", {});
     const go = button("Operate, and let it go on", operateNow, { primary: true });

@@ -1,10 +1,10 @@
-// The view of a building: SVG, one tab stop, arrow keys inside.  Layers over its
-// cells are in `layers`.
+// The view of a building: SVG, one tab stop, arrow keys inside; cells can be lit.  What
+// else is shown over cells is in `layers`.
 
 import { STEP } from "../engine/maps.js";
 import { drawn, make, place } from "./dom.js";
 import { frameOf } from "./frame.js";
-import { addLayers } from "./layers.js";
+import { addLit } from "./lit.js";
 import { CELL, edges, middle, star } from "./plan.js";
 
 /** @import { Building } from "../types.d.ts" */
@@ -218,5 +218,5 @@ export function building(options) {
       frame.addEventListener(kind, () => onPoint(null));
     }
   }
-  return addLayers(view);
+  return addLit(view);
 }

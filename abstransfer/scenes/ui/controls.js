@@ -3,7 +3,6 @@
 
 import { make, newId } from "./dom.js";
 import { bindBets } from "./texts.js";
-import { timeline } from "./timeline.js";
 
 /** @import { ButtonOptions, Scene } from "../types.d.ts" */
 
@@ -121,15 +120,16 @@ export function button(text, act, { primary = false, label, title } = {}) {
   };
 }
 
+// Note a node that steers a value of a scene: an address may hide it.
+export const noted = (scene, name, node) => ((scene.parts[name] ??= []).push(node), node);
+
 /** @param {Scene} scene */
 export function bind(scene) {
   const tied = (make_) => (name, options) => {
     const part = make_({ ...options, onInput: (value) => scene.set({ [name]: value }) });
     scene.control(name, part.set);
-    return noted(name, part.node);
+    return noted(scene, name, part.node);
   };
-  // A node that steers a value: an address may hide it.
-  const noted = (name, node) => ((scene.parts[name] ??= []).push(node), node);
   scene.slider = (name, options) => {
     const [min, max] = scene.limits[name];
     return tied(slider)(name, { min, max, ...options });
@@ -137,6 +137,5 @@ export function bind(scene) {
   scene.choice = tied(choice);
   scene.toggle = tied(toggle);
   scene.button = (text, act, options) => button(text, act, options).node;
-  scene.timeline = (name, options) => noted(name, timeline(scene, name, options));
   bindBets(scene);
 }

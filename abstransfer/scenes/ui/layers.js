@@ -1,9 +1,13 @@
-// What a building view shows over its cells: tints, texts, arrows, patterns, lit
-// cells, robots, trails.  Only what differs from the last time is painted.
+// What a building view shows over its cells: tints, texts, arrows, patterns, robots,
+// trails.  Only what differs from the last time is painted.
 
 import { STEP } from "../engine/maps.js";
+import { building } from "./building.js";
 import { drawn, marker } from "./dom.js";
+import { frames, perCell } from "./lit.js";
 import { CELL, middle } from "./plan.js";
+
+/** @import { BuildingOptions } from "./building.js" */
 
 const KINDS = [
   "",
@@ -19,22 +23,15 @@ const KINDS = [
 ];
 const HUES = 10;
 
+/**
+ * A view of a building, with layers.
+ *
+ * @param {BuildingOptions} options
+ */
+export const layered = (options) => addLayers(building(options));
+
 /** @param {any} view */
 export function addLayers(view) {
-  // A drawing per cell, made when first needed; `paint(node, value)` shows a value.
-  function perCell(key, group, tag, attributes, paint) {
-    return (values) => {
-      const layer = (view.layers[key] ??= { nodes: [], last: [] });
-      for (let cell = 0; cell < view.cells.length; cell++) {
-        const value = values?.[cell] ?? null;
-        if (layer.last[cell] === value || (value === null && !layer.nodes[cell])) continue;
-        layer.last[cell] = value;
-        layer.nodes[cell] ??= view[group].appendChild(drawn(tag, attributes(cell)));
-        layer.nodes[cell].toggleAttribute("hidden", value === null);
-        if (value !== null) paint(layer.nodes[cell], value, cell);
-      }
-    };
-  }
   const centre = (cell) => {
     const [x, y] = middle(view.plan, cell);
     return { x, y };
@@ -57,6 +54,7 @@ export function addLayers(view) {
   };
 
   view.texts = perCell(
+    view,
     "texts",
     "signs",
     "text",
@@ -69,6 +67,7 @@ export function addLayers(view) {
 
   // Four weights a cell (N, E, S, W), 0..1: length and thickness of an arrow.
   const arrows = perCell(
+    view,
     "arrows",
     "signs",
     "path",
@@ -104,6 +103,7 @@ export function addLayers(view) {
 
   // A hue and a pattern per number: equal numbers look alike.
   const patterns = perCell(
+    view,
     "patterns",
     "below",
     "path",
@@ -131,6 +131,7 @@ export function addLayers(view) {
 
   // A dot for each number above 0, the larger, the more.
   const dots = perCell(
+    view,
     "dots",
     "below",
     "circle",
@@ -142,25 +143,7 @@ export function addLayers(view) {
   );
   view.dots = (numbers) => dots(numbers && numbers.map((n) => n || null));
 
-  view.lit = (cells) => {
-    const chosen = new Set(cells ?? []);
-    view.cells.forEach((tile, cell) => tile.classList.toggle("ab-lit", chosen.has(cell)));
-    frames(view.cells.map((_, cell) => (chosen.has(cell) ? 1 : null)));
-  };
-  const frame = (key, kind) =>
-    perCell(
-      key,
-      "signs",
-      "rect",
-      (cell) => {
-        const { x, y } = centre(cell);
-        const size = { width: CELL - 3, height: CELL - 3 };
-        return { x: x - CELL / 2 + 1.5, y: y - CELL / 2 + 1.5, ...size, class: kind };
-      },
-      () => {},
-    );
-  const frames = frame("frames", "ab-litframe");
-  const chosen = frame("chosen", "ab-chosen");
+  const chosen = frames(view, "chosen", "ab-chosen");
   view.choose = (cell) => chosen(view.cells.map((_, other) => (other === cell ? 1 : null)));
 
   // Robots: the mark of their arm on a disc; several in a cell stand side by side.

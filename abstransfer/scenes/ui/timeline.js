@@ -2,7 +2,7 @@
 // the end, scrub.  Nothing plays by itself; a reader who asks for less motion sees
 // single steps at a slow pace.
 
-import { button, slider } from "./controls.js";
+import { button, noted, slider } from "./controls.js";
 import { count, drawn, make } from "./dom.js";
 
 /** @import { Scene, TimelineOptions } from "../types.d.ts" */
@@ -106,7 +106,7 @@ export function timeline(scene, name, options = {}) {
   scene.onLeave(pause);
   scene.onReset(pause);
   showPlay();
-  return make(
+  const node = make(
     "div",
     { class: "ab-timeline", role: "group", "aria-label": "Time line" },
     make(
@@ -117,4 +117,5 @@ export function timeline(scene, name, options = {}) {
     ),
     scrub.node,
   );
+  return noted(scene, name, node);
 }

@@ -4,3 +4,5 @@
 import { readFileSync } from "node:fs";
 
 globalThis.python = JSON.parse(readFileSync(Deno.args[0], "utf8"));
+const { worker } = globalThis.python;
+globalThis.python.worker = new Function("self", worker);
