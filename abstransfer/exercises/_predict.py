@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from dataclasses import dataclass
 
+from ..project.prediction import DIRECTIONS, seal
 from ._model import exercises_of, open_exercises_of, page_of
 
-DIRECTIONS = ("+", "-", "0")
 _sealed: dict[str, list[str]] = {}  # seals by exercise, since Python was started
 
 
@@ -25,7 +24,7 @@ class Prediction:
     def seal(self) -> str:
         """Eight letters that follow from the prediction, and from nothing else."""
         text = f"{self.key} {self.direction} {self.refuted_below!r}"
-        return hashlib.sha256(text.encode()).hexdigest()[:8]
+        return seal(text)
 
     def compare(self, found: float) -> str:
         """

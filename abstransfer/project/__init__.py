@@ -7,6 +7,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "racing": ["Race", "race"],
         "setup": ["Setup", "drives", "run"],
+        "prediction": ["Prediction"],
         "card": ["card_text", "verify"],
         "student": ["building_of", "seed_of"],
     },

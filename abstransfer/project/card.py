@@ -16,6 +16,7 @@ import numpy as np
 
 from ..abstraction import FEATURES
 from ..maps import parse_map
+from .prediction import Prediction, gain, half_up, read_line
 from .racing import Race
 from .setup import GUIDES, Setup, column_of, run, scale
 from .student import written
@@ -30,17 +31,20 @@ class Verified(NamedTuple):
 
     setup: Setup  #: what was raced
     race: Race  #: the race, run again
+    prediction: Prediction | None = None  #: what was sealed before it, if that is told
 
 
 def card_text(
     setup: Setup,
     goals: Mapping[str, Sequence[int]],
     own: Mapping[str, np.ndarray] | None = None,
+    prediction: Prediction | None = None,
 ) -> str:
     """
     Return the text to hand in; `goals` are those of each run, by robot.
 
     `own` holds abstract policies (Z, A) of one's own, of names in ``setup.guides``.
+    A `prediction` is told with what became of it.
     """
     found, (steps, tau) = column_of(setup, own=own), scale(setup.map)
     seen = "all" if setup.features == FEATURES else ", ".join(setup.features) or "none"
@@ -55,14 +59,18 @@ def card_text(
         "Lives": setup.runs,
         "Seed": setup.seed,
     }
+    if prediction is not None:
+        settings["Prediction"] = prediction.line(whose.get("Student", ""))
+        if prediction.robot:
+            settings["Found"] = prediction.compare(goals)
     head = (*HEAD, *(f"life {i + 1}" for i in range(setup.runs)))
     rows = [head, ["---"] * len(head)]
     for name in ("none", *setup.robots, "optimal"):
         mine = [int(n) for n in goals.get(name, ())]
         value = f"{found[name]:.2f}" if name != "none" else ""
-        mean = f"{_half_up(sum(mine) / len(mine))}" if mine else ""
-        gain = _gain(mine, goals["none"]) if mine and name != "none" else ""
-        rows.append([name, value, mean, gain, *(mine or [""] * setup.runs)])
+        mean = f"{half_up(sum(mine) / len(mine))}" if mine else ""
+        more = gain(sum(mine), sum(goals["none"])) if mine and name != "none" else ""
+        rows.append([name, value, mean, more, *(mine or [""] * setup.runs)])
     lines = [TITLE, "", *(f"- {name}: {value}" for name, value in settings.items())]
     lines += ["", *(f"| {' | '.join(map(str, row))} |" for row in rows), ""]
     return "\n".join([*lines, "```text", str(setup.map), "```", ""])
@@ -118,8 +126,8 @@ def _cards(text: str) -> list[list[tuple[int, str]]]:
     return cards
 
 
-def _setup(lines: list[tuple[int, str]]) -> Setup:
-    """Return what a card says was raced; what it lacks is named."""
+def _setup(lines: list[tuple[int, str]]) -> tuple[Setup, Prediction | None]:
+    """Return what a card says was raced and predicted; what it lacks is named."""
     first, bare = lines[0][0], [line for _, line in lines]
 
     def of(name, otherwise=None):
@@ -147,31 +155,25 @@ def _setup(lines: list[tuple[int, str]]) -> Setup:
     map_ = parse_map("\n".join(bare[above + 1 : below]))
     strategy, advice = of("Strategy")[1], of("Advice from")[1]
     student = of("Student", "")[1]
-    return Setup(map_, features, raced, advice, strategy, columns, student)
+    setup = Setup(map_, features, raced, advice, strategy, columns, student)
+    number, said = of("Prediction", "")
+    try:
+        return setup, read_line(said) if said else None
+    except ValueError as error:
+        raise ValueError(f"line {number}: {error}") from None
 
 
 def _verified(lines: list[tuple[int, str]], own: Mapping) -> Verified:
-    setup = _setup(lines)
+    setup, prediction = _setup(lines)
     for name in setup.guides:
         if name not in (*GUIDES, *own):
             raise ValueError(f"own must hold {name!r}: the card has its name only")
     again = run(setup, own)
-    right = [line for line in card_text(setup, again.goals, own).splitlines() if line]
+    text = card_text(setup, again.goals, own, prediction)
+    right = [line for line in text.splitlines() if line]
     missing = [(lines[-1][0], "")] * len(right)
     for (number, said), wanted in zip([*lines, *missing], right, strict=False):
         if said != wanted:
             difference = f"the card says {said!r}, the race again {wanted!r}"
             raise ValueError(f"line {number}: {difference}")
-    return Verified(setup, again)
-
-
-def _gain(mine: Sequence[int], none: Sequence[int]) -> str:
-    """Return how many more goals than none, as "+1.5 %"; nothing over nothing."""
-    if not sum(none):
-        return ""
-    return f"{_half_up(1000 * sum(mine) / sum(none) - 1000) / 10:+.1f} %"
-
-
-def _half_up(x: float) -> int:
-    """Return a whole number as JavaScript rounds: halves go up."""
-    return int(np.floor(x + 0.5))
+    return Verified(setup, again, prediction)

@@ -35,11 +35,13 @@ def seed_of(student: str) -> int:
     """
     Return the seed of a name, from 0 to below 2**32; capitals do not matter.
 
+    Signs become capitals and small again one by one, as JavaScript can do it too.
+
     >>> seed_of("Ann Lee"), seed_of("ann  lee")
     (3835007348, 3835007348)
     """
-    name = written(student).casefold().encode()
-    return int.from_bytes(hashlib.sha256(name).digest()[:4], "big")
+    name = "".join(sign.upper().lower() for sign in written(student))
+    return int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big")
 
 
 def building_of(student: str) -> Map:

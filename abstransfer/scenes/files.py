@@ -81,7 +81,7 @@ def style() -> str:
 
 
 def script(name: str) -> str:
-    """Return the bundle of a scene behind its worker, which is written as a function."""
+    """Return the bundle of a scene behind what its workers do, a function."""
     worker = f"python.worker = (self) => {{\n{bundled('worker')}}};\n"
     return worker + bundled(name)
 

@@ -16,6 +16,7 @@ from abstransfer import (
 from abstransfer.abstraction import FEATURES
 from abstransfer.learning import q_learning
 from abstransfer.project.card import card_text, verify
+from abstransfer.project.prediction import Prediction
 from abstransfer.project.racing import race
 from abstransfer.project.setup import Setup, run, scale
 from abstransfer.project.student import building_of, seed_of
@@ -218,6 +219,86 @@ def test_no_line_can_be_left_out_or_added(card):
 def test_what_is_no_card_is_refused_by_what_it_lacks(card, old, new, said):
     with pytest.raises(ValueError, match=f"^{re.escape(said)}"):
         verify(card.replace(old, new))
+
+
+# What was predicted
+
+
+SEALED = Prediction(12, "eager", "+", 30)
+
+
+@pytest.fixture(scope="module")
+def sealed_card():
+    setup = SETUP._replace(student="Ann Lee")
+    return card_text(setup, run(setup).goals, prediction=SEALED)
+
+
+def test_a_card_tells_what_was_predicted_and_what_became_of_it(sealed_card, card):
+    assert f"- Prediction: {SEALED.line('Ann Lee')}\n- Found: " in sealed_card
+    assert verify(sealed_card)[0].prediction == SEALED
+    assert verify(card)[0].prediction is None, "a card of before"
+
+
+def test_no_digit_of_a_prediction_can_be_changed_unseen(sealed_card):
+    start = sealed_card.index("- Prediction")
+    end = sealed_card.index("\n", sealed_card.index("- Found"))
+    places = [i for i in range(start, end) if sealed_card[i] in "0123456789abcdef"]
+    for i in places:
+        other = "1" if sealed_card[i] != "1" else "2"
+        line = sealed_card[:i].count("\n") + 1
+        with pytest.raises(ValueError, match=f"^line {line}: "):
+            verify(sealed_card[:i] + other + sealed_card[i + 1 :])
+
+    assert len(places) > 20
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("Prediction: eager, direction +", "Prediction: eager, direction -"),
+        ("refuted below", "refuted above"),
+        ("Prediction: eager", "Prediction: rand"),
+        ("Student: Ann Lee", "Student: Ann Leo"),
+        ("- Found: ", "- Found: not "),
+    ],
+)
+def test_a_prediction_cannot_be_turned_after_the_race(sealed_card, old, new):
+    assert sealed_card.count(old) == 1
+    with pytest.raises(ValueError, match=r"^line \d+: the card says"):
+        verify(sealed_card.replace(old, new))
+
+
+def test_a_prediction_that_cannot_be_read_is_refused_by_its_line(sealed_card):
+    with pytest.raises(ValueError, match="^line 12: a prediction must be 'none' or "):
+        verify(sealed_card.replace("direction +", "up"))
+
+
+@pytest.mark.parametrize(
+    ("direction", "percent", "nd", "word"),
+    [
+        ("+", 5, 105, "as predicted"),
+        ("+", 5, 104, "refuted"),
+        ("-", 5, 95, "as predicted"),
+        ("-", 5, 96, "refuted"),
+        ("-", 0, 101, "refuted"),
+        ("0", 5, 105, "as predicted"),
+        ("0", 5, 94, "refuted"),
+        ("0", 0, 100, "as predicted"),
+    ],
+)
+def test_a_prediction_is_compared_at_its_border(direction, percent, nd, word):
+    goals = {"none": [40, 60], "nd": [nd - 10, 10]}
+    found = Prediction(1, "nd", direction, percent).compare(goals)
+
+    assert found == f"{nd - 100:+.1f} %, {word}"
+
+
+def test_nothing_is_compared_with_a_robot_that_did_not_race():
+    assert Prediction(robot="nd").compare({"none": [5]}) == "nothing to compare"
+    assert Prediction(robot="nd").compare({"none": [0], "nd": [5]}) == (
+        "nothing to compare"
+    )
+    assert Prediction().compare({"none": [5]}) == ""
 
 
 def test_advice_of_ones_own_is_handed_in_beside_the_card(card):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from golden.write_golden import GOLDEN, as_json, read
 
+from abstransfer.project.student import building_of, seed_of, written
 from abstransfer.scenes import KINDS, bundle
 from abstransfer.scenes import files as front
 
@@ -51,11 +52,41 @@ def test_a_changed_number_is_noticed():
         assert list(differences({"a": other}, golden))
 
 
+def students():
+    """Names with their seeds and buildings, and signs as seeds take them."""
+    names = ["Ann Lee", " ann  lee", "Zoë Ångström", "Zoe\u0308 \xc5ngstro\u0308m"]
+    names += [
+        "Straße",
+        "ΣΟΦΟΣ σοφος",
+        "Işık İpek",
+        "李小龙",
+        "a\x1cb\x85c\ufeffd",
+        ". .",
+    ]
+    names += [f"student {number}" for number in range(30)]
+    told = [
+        {
+            "name": name,
+            "one": written(name),
+            "seed": seed_of(name),
+            "building": str(building_of(name)),
+        }
+        for name in names
+    ]
+    known = (chr(code) for code in range(0x110000) if not 0xD800 <= code < 0xE000)
+    # A sign that one side does not know yet has no capitals there.
+    changed = (sign for sign in known if sign.upper().lower() != sign)
+    signs = [(sign, sign.upper().lower()) for sign in changed]
+    return {"students": told, "signs": signs}
+
+
 @pytest.mark.parametrize("path", sorted((HERE / "js").glob("*.test.js")), ids=str)
 def test_the_front_end_without_a_page(path, tmp_path):
     said = tmp_path / "said.json"
     fields = {name: kind.spec()["fields"] for name, kind in KINDS.items()}
     more = {"isWidget": True, "fields": fields, "worker": front.bundled("worker")}
+    if path.name == "project.test.js":
+        more |= students()
     said.write_text(front.said(**more), encoding="utf-8")
     test = [bundle.find_deno(), "test", "--no-check", "--allow-read"]
     done = subprocess.run(

@@ -10,7 +10,9 @@ from abstransfer.abstraction import FEATURES
 from abstransfer.experiments.stats import t_interval
 from abstransfer.maps import parse_map, read_map
 from abstransfer.project.card import card_text, verify
+from abstransfer.project.prediction import Prediction
 from abstransfer.project.setup import GUIDES, Setup, drives, run, scale
+from abstransfer.project.student import building_of, seed_of
 from abstransfer.scenes import Project
 
 SCHOOL = parse_map(Project().text)
@@ -99,6 +101,7 @@ def test_a_race_in_the_school_is_pythons_to_the_last_goal(open_scene):
 
 
 SETUPS = [
+    Setup(SCHOOL, guides=("nd",), runs=1, student="Zoë  Ångström"),
     Setup(SCHOOL, guides=("prob", "rand"), strategy="soft", runs=2),
     Setup(SCHOOL, FEATURES[:4] + FEATURES[9:], ("nd", "grad"), "own", runs=1),
     Setup(SCHOOL, (), ("nd", "eager"), "source", runs=1),
@@ -108,21 +111,21 @@ SETUPS = [
 
 def widget_of(setup):
     parts = setup._asdict()
-    del parts["student"]  # who says a name does so in Python
     parts["lives"] = parts.pop("runs")  # addresses keep the word
     lists = {name: list(parts[name]) for name in ("features", "guides")}
     return Project(**parts | lists)
 
 
-@pytest.mark.parametrize("setup", SETUPS, ids=["soft", "own", "blind", "tiny"])
+@pytest.mark.parametrize("setup", SETUPS, ids=["named", "soft", "own", "blind", "tiny"])
 def test_other_races_are_pythons_too(open_scene, setup):
     widget = widget_of(setup)
     tab = project(open_scene, **widget.changed)
     raced(bet(tab, "I do not bet: show me"))
 
     assert widget.setup == setup
-    assert card(tab) == card_text(setup, run(setup).goals)
-    assert verify(card(tab))[0].setup == setup
+    assert card(tab) == card_text(setup, run(setup).goals, prediction=Prediction(1))
+    again = verify(card(tab))[0].setup
+    assert again == setup._replace(student=" ".join(setup.student.split()))
     assert "You bet" not in tab.closing
     assert tab.problems == []
 
@@ -192,6 +195,76 @@ def test_leaving_and_quick_changes_while_it_races(open_scene):
     tab.page.wait_for_function("() => document.body.innerText.includes('Racing:')")
     tab.page.goto("about:blank")
 
+    assert tab.problems == []
+
+
+# Whose race it is, and what is predicted
+
+
+def predict(tab, robot="ND", direction="fewer goals", percent=3):
+    tab.root.get_by_label("Robot").select_option(robot)
+    tab.root.get_by_label("Compared with none").select_option(direction)
+    tab.root.get_by_label("Refuted, in percent").fill(str(percent))
+    tab.root.get_by_label("Refuted, in percent").press("Tab")
+    return tab.settle()
+
+
+FORECAST = ("Robot", "Compared with none", "Refuted, in percent")
+
+
+def is_closed(tab):
+    (is_all,) = {tab.root.get_by_label(name).is_disabled() for name in FORECAST}
+    return is_all
+
+
+def test_a_prediction_is_sealed_when_the_race_begins_and_told_on_the_card(open_scene):
+    tab = bet(driven(project(open_scene, guides=["nd"], lives=2)))
+    predict(tab)
+    assert not is_closed(tab)
+    tab.click("Race")
+    assert is_closed(tab)
+    finished(tab)
+    goals = run(Setup(SCHOOL, guides=("nd",), runs=2)).goals
+    sealed = Prediction(1, "nd", "-", 3)
+    found = sealed.compare(goals)
+
+    assert is_closed(tab)
+    assert f"Sealed before race 1: {sealed.line()[-8:]}." in tab.root.inner_text()
+    assert f"Your prediction: {found}." in tab.closing
+    assert f"- Prediction: {sealed.line()}\n- Found: {found}\n" in card(tab)
+    assert verify(card(tab))[0].prediction == sealed
+    tab.root.get_by_role("slider", name="Runs").fill("3")
+    raced(tab.settle())
+    assert verify(card(tab))[0].prediction == sealed, "the same race, one run more"
+    assert tab.problems == []
+
+
+def test_each_race_is_counted_and_a_reset_or_a_new_visit_forgets_none(open_scene):
+    tab = raced(bet(driven(project(open_scene, guides=["nd"], lives=1))))
+    tab.pick("Advice", "soft: ever less often")
+    assert not is_closed(tab), "another race"
+    raced(tab)
+    assert verify(card(tab))[0].prediction == Prediction(2)
+    tab.click("Reset")
+    assert not is_closed(tab)
+    tab.page.reload()
+    tab.page.wait_for_selector(".ab-live")
+    raced(driven(tab))
+    assert verify(card(tab))[0].prediction == Prediction(3)
+    assert tab.problems == []
+
+
+def test_a_name_gives_a_seed_and_a_building_of_ones_own(open_scene):
+    tab = project(open_scene)
+    mine = tab.root.get_by_role("button", name="My building")
+    assert mine.get_attribute("aria-disabled") == "true"
+    tab.root.get_by_label("Your name").fill("  Zoë  Ångström ")
+    tab.press("Tab")
+    assert f"Seed {seed_of('Zoë Ångström')}" in tab.root.inner_text()
+    mine.click()
+    tab.settle()
+
+    assert text_of(tab) == str(building_of("Zoë Ångström"))
     assert tab.problems == []
 
 

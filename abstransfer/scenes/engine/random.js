@@ -8,7 +8,7 @@ const POOL = 4;
 /**
  * A whole number >= 0, of any size, as 32-bit words, the lowest first.
  *
- * @param {number} number
+ * @param {number | bigint} number
  */
 function toWords(number) {
   const words = [];
@@ -44,7 +44,7 @@ function mixed(x, y) {
 /**
  * What numpy.random.SeedSequence(seed, spawn_key=key).generate_state(n) returns.
  *
- * @param {number} seed a whole number
+ * @param {number | bigint} seed a whole number
  * @param {number[]} key
  * @param {number} n
  * @returns {Uint32Array}

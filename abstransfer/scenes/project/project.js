@@ -11,8 +11,11 @@ import { button, toggle } from "../ui/controls.js";
 import { armStyle, count, list, make, number, plural } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
 import { sight } from "../ui/sights.js";
+import { keep, kept, onReplaced, pageHere } from "../ui/kept.js";
 import { sum } from "../parts/runs.js";
 import * as rules from "./race.js";
+import { compare, lineOf, predicting } from "./sealed.js";
+import { buildingOf, seedOf, written } from "./whose.js";
 
 const FROM = {
   source: "the paper's source",
@@ -61,6 +64,31 @@ defineScene("project", {
     const features = () => listed("features", FEATURES);
     const guides = () => listed("guides", rules.GUIDES);
 
+    // ---- whose race it is, what is predicted, and which race of this reader
+
+    const student = () => written(state.student);
+    const seed = () => (student() ? seedOf(student()) : rules.SEED);
+    const whose = make("input", {
+      type: "text",
+      maxlength: 60,
+      placeholder: "Ann Lee",
+      "aria-label": "Your name",
+      onchange: () => scene.set({ student: whose.value }),
+    });
+    scene.control("student", (value) => (whose.value = value));
+    const mine = button("My building", () => scene.set({ text: buildingOf(student()) }));
+    const seeded = make("span", {});
+    const forecast = predicting(
+      scene,
+      Object.fromEntries(rules.GUIDES.map((name) => [name, nameOf(name)])),
+    );
+    const isClosed = () =>
+      isWanted || Object.keys(begun).length > 0 || Object.keys(state.goals).length > 0;
+    // A reset forgets the race, not that there was one.
+    const id = `${scene.id}.races`;
+    const recall = () => scene.set({ races: Number(kept(pageHere(), id)) });
+    scene.onLeave(onReplaced(recall));
+
     const bars = barChart({
       label: "How well the advice drives here",
       format: (x) => number(x, 1),
@@ -94,6 +122,7 @@ defineScene("project", {
         question: "Bet first: whose advice helps a robot in the school, compared with none?",
         options: BETS,
       }),
+      scene.row(make("label", {}, "Your name ", whose), mine.node, seeded),
       make(
         "div",
         { class: "ab-columns" },
@@ -129,6 +158,7 @@ defineScene("project", {
         ),
         scene.slider("lives", { label: "Runs of each" }),
       ),
+      forecast.node,
       scene.row(start.node, stop.node),
       status,
       make("div", {}, key, dots.node),
@@ -175,11 +205,15 @@ defineScene("project", {
     function learn() {
       const lives = missing();
       isWanted = false;
+      if (!isClosed()) {
+        keep(pageHere(), id, `${state.races + 1}`);
+        recall();
+      }
       for (const run of lives) begun[run] ??= [];
       scene.learn(
         rules.jobsOf(
           me.map,
-          { features: features(), strategy: state.strategy },
+          { features: features(), strategy: state.strategy, seed: seed() },
           found.guides,
           lives,
         ),
@@ -203,6 +237,7 @@ defineScene("project", {
         n,
         i,
       ) => (isKnown(name, i) && isKnown("none", i) ? [n - state.goals.none[i]] : []));
+    const raced = () => Object.fromEntries(robots().map((name) => [name, livesOf(name)]));
     function verdict() {
       if (!isDone() || !guides().length || !state.bet) return "";
       const none = livesOf("none");
@@ -212,8 +247,8 @@ defineScene("project", {
         const share = Number.isFinite(gain) ? ` (${isHurt ? "" : "+"}${number(100 * gain)} %)` : "";
         return `${nameOf(name)} ${isHurt ? "hurt" : "helped"} in ${n}${share}`;
       });
-      const raced = found.filter(({ name }) => ADVICE.includes(name));
-      const better = raced.filter(({ gain }) => gain > 0).map(({ name }) => name);
+      const taught = found.filter(({ name }) => ADVICE.includes(name));
+      const better = taught.filter(({ gain }) => gain > 0).map(({ name }) => name);
       const truth = { 0: "none", 1: better[0], 3: "all" }[better.length] ??
         list(better.map((name) => BETS[name]));
       const isSchool = ["text", "features", "advice", "strategy"].every((key) =>
@@ -225,7 +260,7 @@ defineScene("project", {
           scene.betResult(
             "bet",
             truth,
-            isSchool && raced.length === 3
+            isSchool && taught.length === 3
               ? ""
               : "the school, with the paper's advice of all three",
           )
@@ -235,7 +270,7 @@ defineScene("project", {
           found.some(({ n }) => n < lives) && lives < 20
             ? " Where runs disagree, more runs tell more."
             : ""
-        }`
+        }${state.predicted && ` Your prediction: ${compare(state, raced())}.`}`
       ).trim();
     }
     function saying() {
@@ -253,9 +288,7 @@ defineScene("project", {
       return share() > 0 && !isDone() ? `${length} Done: ${part}. It can go on.` : length;
     }
     const rows = () => {
-      const goals = isDone()
-        ? Object.fromEntries(robots().map((name) => [name, livesOf(name)]))
-        : {};
+      const goals = isDone() ? raced() : {};
       return rules.cardRows(guides(), found?.drives ?? {}, goals, state.lives);
     };
 
@@ -278,6 +311,13 @@ defineScene("project", {
         ? ""
         : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS}.`;
       status.textContent = saying();
+      mine.enable(student());
+      seeded.textContent = student() ? `Seed ${seed()}` : "";
+      const [, sealed] = lineOf(state, student()).split("sealed ");
+      forecast.close(
+        isClosed(),
+        isClosed() && state.races ? `Sealed before race ${state.races}: ${sealed}.` : "",
+      );
       const asked = `${lived(state.lives)} of ${plural(robots().length, "robot")}`;
       const isHalf = share() > 0 && !isDone() && !scene.isLearning;
       start.set(isHalf ? `Go on with the race: ${asked}` : `Race: ${asked}`);
@@ -295,6 +335,10 @@ defineScene("project", {
       if (!card.hidden) {
         const { advice, strategy, lives } = state;
         area.value = rules.cardText({
+          student: student(),
+          seed: seed(),
+          prediction: lineOf(state, student()),
+          found: compare(state, raced()),
           map: me.map,
           tasks: found.tasks,
           features: features(),
@@ -310,10 +354,11 @@ defineScene("project", {
     return function draw(_, changed) {
       const isNew = ["text", "features", "advice"].some((name) => changed.has(name));
       if (changed.has("text")) me.read();
-      if (isNew || changed.has("strategy")) {
+      if (isNew || changed.has("strategy") || changed.has("student")) {
         scene.stop();
         isWanted = false;
         const isStart = changed.size === Object.keys(state).length;
+        if (isStart) recall();
         begun = {};
         if (!isStart) scene.set({ goals: {} }); // they were of another race
       }

@@ -12,7 +12,7 @@ import { meanInterval, quantile } from "../parts/student.js";
 import { mapTexts, paper, spec } from "../python.js";
 import { count } from "../ui/dom.js";
 
-const { seed: SEED } = paper;
+export const { seed: SEED } = paper;
 export const GUIDES = spec.fields.guides.bounds;
 const half = (x) => Math.floor(x + 0.5);
 
@@ -61,7 +61,7 @@ export function* preparing(map, features, advice) {
 }
 
 // Jobs of runs [robot, run] for `learnAll`.
-export function jobsOf(map, { features, strategy }, guides, runs) {
+export function jobsOf(map, { features, strategy, seed }, guides, runs) {
   const tasks = navigationTasks(map, { features, reward: "goal" });
   const world = makeWorld(tasks);
   const { steps, tau } = scale(map);
@@ -70,14 +70,19 @@ export function jobsOf(map, { features, strategy }, guides, runs) {
     world,
     steps,
     window: steps / 10,
-    seed: SEED,
+    seed,
     key: [0, run],
     rule: { strategy, tau },
     guide: robot === "none" ? null : (own[robot] ??= makeGuide(guides[robot], tasks.rho)),
   }));
 }
 
-const total = (goals) => goals.reduce((sum, n) => sum + n, 0);
+export const total = (goals) => goals.reduce((sum, n) => sum + n, 0);
+// As "+1.5 %"; nothing over nothing.
+export function gainText(mine, none) {
+  const share = half((1000 * mine) / none - 1000) / 10;
+  return none ? `${share < 0 ? "" : "+"}${share.toFixed(1)} %` : "";
+}
 // By how much robots reached more than the one without advice: 0.1 is 10 %.
 const gainOf = (goals, none) => total(goals) / total(none) - 1;
 
@@ -120,13 +125,11 @@ export function picture(robots) {
 export function cardRows(chosen, drives, goals, lives) {
   return ["none", ...chosen, "optimal"].map((name) => {
     const mine = goals[name] ?? [];
-    const gain = half(1000 * (gainOf(mine, goals.none ?? []) + 1) - 1000) / 10;
-    const isGain = mine.length && name !== "none" && total(goals.none) > 0;
     return [
       name,
       name === "none" ? "" : (drives[name]?.toFixed(2) ?? ""),
       mine.length ? `${half(total(mine) / mine.length)}` : "",
-      isGain ? `${gain < 0 ? "" : "+"}${gain.toFixed(1)} %` : "",
+      mine.length && name !== "none" ? gainText(total(mine), total(goals.none)) : "",
       ...Array.from({ length: lives }, (_, i) => mine[i] ?? ""),
     ];
   });
@@ -136,11 +139,15 @@ export const headOf = (
   lives,
 ) => [...HEAD, ...Array.from({ length: lives }, (_, i) => `life ${i + 1}`)];
 
-export function cardText({ map, tasks, features, advice, strategy, lives, rows }) {
+// `student` and `found` may be "", and are not told then; see `sealed.js`.
+export function cardText(
+  { student, map, tasks, features, advice, strategy, lives, seed, prediction, found, rows },
+) {
   const { steps, tau } = scale(map);
   const seen = features.length === FEATURES.length ? "all" : features.join(", ") || "none";
   const size = `${map.nCells} cells, ${map.nRooms} rooms, ${map.goals.length} goals`;
   const settings = {
+    ...(student && { Student: student }),
     Building: `${size}, ${abstractStates(tasks).length} abstract states`,
     "Advice from": advice,
     Features: seen,
@@ -148,7 +155,9 @@ export function cardText({ map, tasks, features, advice, strategy, lives, rows }
     Steps: steps,
     Tau: tau,
     Lives: lives,
-    Seed: SEED,
+    Seed: seed,
+    Prediction: prediction,
+    ...(found && { Found: found }),
   };
   const head = headOf(lives);
   return [

@@ -9,6 +9,7 @@ import traitlets
 from ...abstraction import FEATURES
 from ...builders import BUILDERS
 from ...project.card import card_text
+from ...project.prediction import DIRECTIONS, Prediction
 from ...project.racing import Race
 from ...project.setup import ADVICE, GUIDES, PAPER_ENTRIES, PAPER_TAU, Setup, run
 from ..base import MapTrait
@@ -56,6 +57,15 @@ class Project(DrawnScene):
     lives : int, 1 to 20
         Runs of each robot; addresses of old keep the word.
     tool : {"wall", "door", "room", "corridor", "goal"}
+    student : str
+        Whose race it is; the seed follows from the name.
+    predicted : str
+        The robot that something is predicted of, of `guides`; "" if nothing is.
+    direction : {"+", "-", "0"}
+    percent : int, 0 to 100
+        What is predicted; see :class:`~abstransfer.project.prediction.Prediction`.
+    races : int
+        How many races the reader has begun.
 
     Examples
     --------
@@ -81,6 +91,11 @@ class Project(DrawnScene):
     strategy = traitlets.Enum(("hard", "soft"), "hard").tag(sync=True)
     lives = traitlets.Int(5, min=1, max=20).tag(sync=True)
     bet = traitlets.Unicode("").tag(sync=True, local=True)
+    student = traitlets.Unicode("").tag(sync=True, local=True)
+    predicted = traitlets.Enum(("", *GUIDES), "").tag(sync=True, local=True)
+    direction = traitlets.Enum(DIRECTIONS, "+").tag(sync=True, local=True)
+    percent = traitlets.Int(5, min=0, max=100).tag(sync=True, local=True)
+    races = traitlets.Int(0, min=0).tag(sync=True, local=True)
     goals = traitlets.Dict().tag(sync=True, local=True)
 
     @property
@@ -88,7 +103,9 @@ class Project(DrawnScene):
         """All that the race depends on."""
         features = tuple(name for name in FEATURES if name in self.features)
         guides = tuple(name for name in GUIDES if name in self.guides)
-        return Setup(self.map, features, guides, self.advice, self.strategy, self.lives)
+        name = " ".join(self.student.split())
+        how = (self.advice, self.strategy, self.lives, name if name.strip(".") else "")
+        return Setup(self.map, features, guides, *how)
 
     def run(self) -> Race:
         """Run the race in Python: the goals are those of the browser."""
@@ -96,7 +113,8 @@ class Project(DrawnScene):
 
     def card(self) -> str:
         """Return the text to hand in, as the browser writes it."""
-        return card_text(self.setup, self.run().goals)
+        said = (max(self.races, 1), self.predicted, self.direction, self.percent)
+        return card_text(self.setup, self.run().goals, prediction=Prediction(*said))
 
     def __repr__(self) -> str:
         return super().__repr__().replace("text=...", f"map={self.map!r}")
