@@ -5,6 +5,7 @@
 # make lab    open the notebooks, with solutions, in JupyterLab
 # make lab-student  open the student edition there
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
+# make slides  build the book, and say where its slides for the wall are
 # make student  write the student edition, with blanks, into build/student
 # make zip    pack the built book and the student edition into build, with checksums
 # make nightly  the long forms of the tests that draw what happens, an hour; Run All of
@@ -27,12 +28,12 @@ PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is p
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core test-browsers nightly lab lab-student pdf student zip bench clean env system
+.PHONY: book test test-core test-browsers nightly lab lab-student pdf slides student zip bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core test-browsers nightly lab lab-student pdf student zip bench clean env system:
+book test test-core test-browsers nightly lab lab-student pdf slides student zip bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -124,6 +125,9 @@ pdf: .venv/.book
 	@$(BIN)/python scripts/pdf.py --check
 	@$(MAKE) --no-print-directory book
 	@$(BIN)/python scripts/pdf.py
+
+slides: book
+	@echo "Open the slides: $(HERE)/build/_build/html/slides.html"
 
 student: .venv/.book
 	$(BIN)/python scripts/student_edition.py build/student

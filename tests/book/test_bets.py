@@ -21,7 +21,11 @@ NAME = re.compile(r"^:name: (\S+)$", re.MULTILINE)
 ASKS = re.compile(r"\basks-(\w+?)-(\S+)")
 SHOWN = re.compile(r"data-scene=\\?\"(\w+)")
 # Bets that only the scene asks: they are about what is done in it.
-OF_SCENES = {("studio", "bet"), ("microscope", "bet"), ("filling", "bet")}
+OF_SCENES = {
+    (name, bet)
+    for name, kind in KINDS.items()
+    for bet in kind.constants.get("bets", ())
+}
 SMALL = {
     "one",
     "two",
@@ -190,4 +194,5 @@ def bet_fields(kind):
         name
         for name, field in fields
         if field["kind"] == "text" and field["isLocal"] and field["start"] == ""
+        if name != "student"
     ]

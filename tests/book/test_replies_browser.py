@@ -132,3 +132,38 @@ def test_a_page_without_scripts_reads_as_it_stands(html, chromium):
         assert page.locator("details[open] li").count() >= 3
     finally:
         context.close()
+
+
+def test_one_button_forgets_all_pages_asks_first_and_can_be_undone(opened):
+    page, tab = opened("00_race")
+    for name in ("00_race", "03_learning"):
+        tab.open(name)
+        page.locator(f"#{BETS[name][0].name} .bet-option").first.click()
+
+    def placed():
+        found = []
+        for name in ("00_race", "03_learning"):
+            tab.open(name)
+            found.append(page.locator(".bet-folded").count())
+        tab.open("lecturers_guide")
+        return found
+
+    def press(name):
+        box = page.locator(".reset-book")
+        box.get_by_role("button", name=name).click()
+        return box.get_by_role("status").inner_text()
+
+    assert placed() == [1, 1]
+    asked = "This tab keeps bets, answers or notes of 2 pages. Forget all of it?"
+    assert press("Reset the whole book") == asked
+    assert press("No, keep it") == "Nothing was forgotten."
+    assert placed() == [1, 1]
+    press("Reset the whole book")
+    press("Yes, forget it")
+    assert press("Undo the reset").endswith("are back.")
+    assert placed() == [1, 1]
+    press("Reset the whole book")
+    press("Yes, forget it")
+    assert placed() == [0, 0]
+    assert press("Reset the whole book") == "Nothing is kept in this tab."
+    assert tab.problems == []

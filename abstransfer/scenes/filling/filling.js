@@ -3,6 +3,7 @@
 
 import { meanInterval, quantile } from "../parts/student.js";
 import { runRows } from "../parts/rows.js";
+import { spec } from "../python.js";
 import { choice } from "../ui/controls.js";
 import { armStyle, count, make, number } from "../ui/dom.js";
 import { defineScene } from "../ui/scene.js";
@@ -11,12 +12,6 @@ import { combine, findingsOf, HOLDS, SAME, UNDECIDED, verdictsOf } from "./verdi
 
 const CLAIMS = { 1: "1", 2: "2", 3: "3", 4: "4", 5: "5", [SAME]: "each arm against itself" };
 const ORDERS = { 0: "as run", 1: "shuffled 1", 2: "shuffled 2", 3: "shuffled 3", 4: "shuffled 4" };
-const BETS = {
-  few: [5, "5 runs"],
-  some: [15, "6 to 15"],
-  many: [30, "16 to 30"],
-  most: [50, "more than 30"],
-};
 defineScene("filling", {
   title: "When would you sign?",
   build(scene) {
@@ -44,10 +39,7 @@ defineScene("filling", {
     );
     const judged = make("div", { class: "ab-scene" }, now, scene.row(sign));
     scene.add(
-      scene.bet("bet", {
-        question: "Bet first: after how many runs of each arm would you sign claim 1?",
-        options: Object.fromEntries(Object.entries(BETS).map(([key, [, text]]) => [key, text])),
-      }),
+      scene.bet("bet", spec.bets.bet),
       scene.row(scene.choice("claim", { label: "Claim", options: CLAIMS }), order.node),
       title,
       timeline(scene, "n", { label: "Runs", speeds: [1, 4, 12] }),
@@ -79,7 +71,7 @@ defineScene("filling", {
           } % wrong, where one look is wrong in 5 %. Fix the number of runs before you look.`
         );
       }
-      const truth = Object.keys(BETS).find((key) => found.settled <= BETS[key][0]);
+      const truth = Object.keys(spec.settled).find((key) => found.settled <= spec.settled[key]);
       return (
         `${claim === "1" ? scene.betResult("bet", truth) : ""} You signed “${
           verdict(signed)

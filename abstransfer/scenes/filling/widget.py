@@ -24,6 +24,12 @@ from ..base import Scene
 from ..parts.student import STUDENT
 
 RUNS = 50
+BETS = {  # at most so many runs
+    "few": (5, "5 runs"),
+    "some": (15, "6 to 15"),
+    "many": (30, "16 to 30"),
+    "most": (RUNS, "more than 30"),
+}
 NINE = tuple(
     f"{reward}-{target}"
     for reward in ("cost", "goal")
@@ -60,7 +66,17 @@ class Filling(Scene):
     """
 
     scene = "filling"
-    constants = {"student": STUDENT}
+    constants = {
+        "student": STUDENT,
+        "settled": {name: most for name, (most, _) in BETS.items()},
+        "bets": {
+            "bet": {
+                "question": "Bet first: after how many runs of each arm would you sign "
+                "claim 1?",
+                "options": {name: text for name, (_, text) in BETS.items()},
+            }
+        },
+    }
     results = traitlets.Enum(NINE, "goal-target").tag(sync=True)
     claim = traitlets.Enum(KEYS, "1").tag(sync=True)
     order = traitlets.Int(0, min=0, max=4).tag(sync=True)

@@ -6,7 +6,7 @@ import { parseMap } from "../engine/maps.js";
 import { A, LABELS } from "../engine/navigation.js";
 import { mean } from "../engine/solvers.js";
 import { BET, given, HOW, LUCKS, STARTS, take, visited } from "./runs.js";
-import { mapTexts } from "../python.js";
+import { mapTexts, spec } from "../python.js";
 import { barChart, formula } from "../ui/bars.js";
 import { list, make, number, place } from "../ui/dom.js";
 import { layered } from "../ui/layers.js";
@@ -63,11 +63,7 @@ defineScene("microscope", {
       ),
       equation.node,
       words,
-      scene.bet("bet", {
-        question:
-          `Bet first: which start makes the robot visit most cells in ${BET} steps, on average?`,
-        options: Object.fromEntries(Object.entries(STARTS).map(([k, { text }]) => [k, text])),
-      }),
+      scene.bet("bet", spec.bets.bet),
     );
 
     function nextChange(t) {

@@ -73,6 +73,13 @@ class Microscope(Scene):
             name: {"reward": reward, "q0": q0, "text": text}
             for name, (reward, q0, text) in STARTS.items()
         },
+        "bets": {
+            "bet": {
+                "question": "Bet first: which start makes the robot visit most cells "
+                f"in {BET} steps, on average?",
+                "options": {name: text for name, (_, _, text) in STARTS.items()},
+            }
+        },
     }
     map = MapTrait(TWO_ROOMS)
     start = traitlets.Enum(tuple(STARTS), "goal").tag(sync=True)

@@ -78,6 +78,7 @@ defineScene("project", {
     scene.control("student", (value) => (whose.value = value));
     const mine = button("My building", () => scene.set({ text: buildingOf(student()) }));
     const seeded = make("span", {});
+    const showSeed = (text) => seeded.textContent === text || (seeded.textContent = text);
     const forecast = predicting(
       scene,
       Object.fromEntries(rules.GUIDES.map((name) => [name, nameOf(name)])),
@@ -312,7 +313,7 @@ defineScene("project", {
         : `Grad climbs: ${found?.iteration ?? 0} of ${ITERATIONS}.`;
       status.textContent = saying();
       mine.enable(student());
-      seeded.textContent = student() ? `Seed ${seed()}` : "";
+      showSeed(student() ? `Seed ${seed()}` : "");
       const [, sealed] = lineOf(state, student()).split("sealed ");
       forecast.close(
         isClosed(),

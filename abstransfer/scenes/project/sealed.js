@@ -71,11 +71,16 @@ export function predicting(scene, names) {
     tied("percent", make("input", share)),
   ];
   const side = make("span", {});
-  scene.control("direction", () => (side.textContent = `, refuted ${sideOf(scene.state)} `));
   const words = make("p", {});
   const [who, direction, percent] = parts;
   const rest = make("span", {}, direction, side, percent, " %");
-  scene.control("predicted", (value) => (rest.hidden = !value));
+  function show() {
+    const text = `, refuted ${sideOf(scene.state)} `;
+    if (side.textContent !== text) side.textContent = text;
+    if (rest.hidden === Boolean(scene.state.predicted)) rest.hidden = !rest.hidden;
+  }
+  scene.control("direction", show);
+  scene.control("predicted", show);
   return {
     node: make(
       "fieldset",
@@ -85,8 +90,8 @@ export function predicting(scene, names) {
       words,
     ),
     close(is, said) {
+      if (words.textContent === said && percent.disabled === is) return;
       for (const part of parts) part.disabled = is;
-      words.hidden = !said;
       words.textContent = said;
     },
   };

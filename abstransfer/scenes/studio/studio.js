@@ -6,6 +6,7 @@ import { navigationTasks } from "../engine/navigation.js";
 import { optimalValues } from "../engine/solvers.js";
 import { PAPER, ROWS } from "../engine/paper.js";
 import { makeEditor } from "../parts/editor.js";
+import { spec } from "../python.js";
 import { follow, solving } from "./walk.js";
 import { likeness, nameOf, overlay, seenIn, stepText } from "./words.js";
 import { barChart } from "../ui/bars.js";
@@ -81,10 +82,7 @@ defineScene("studio", {
       ),
       me.solve.node,
       bars.node,
-      scene.bet("bet", {
-        question: "Bet first, then edit: which row moves most when the building changes?",
-        options: rows,
-      }),
+      scene.bet("bet", spec.bets.bet),
       tools.files,
     );
 

@@ -5,13 +5,18 @@ from __future__ import annotations
 import traitlets
 
 from ...builders import abstract_policies
-from ...driving import column
+from ...driving import ROWS, column
 from ...maps import read_map
 from ...navigation import NavigationTasks, navigation_tasks
 from ..base import MapTrait
 from ..parts.drawn import DrawnScene, read_drawing
+from ..parts.svg import look_of
 
 TOOLS = ("walk", "wall", "door", "room", "corridor", "goal")
+BET = {
+    "question": "Bet first, then edit: which row moves most when the building changes?",
+    "options": {row: look_of(row).name for row in ROWS},
+}
 SHOWN = ("plain", "states", "nd", "prob", "grad", "optimal")
 
 
@@ -52,6 +57,7 @@ class Studio(DrawnScene):
     """
 
     scene = "studio"
+    constants = {"bets": {"bet": BET}}
     map = MapTrait("source").tag(sync=False)
     text = traitlets.Unicode(str(read_map("source"))).tag(sync=True)
     tool = traitlets.Enum(TOOLS, "walk").tag(sync=True)

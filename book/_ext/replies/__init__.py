@@ -12,7 +12,9 @@ from abstransfer.scenes import bundle
 
 HERE = Path(__file__).parent
 # What a page holds that can reply.
-HOLDS = re.compile(r'id="bet-|<section id="quiz">|<a href="#\w+\.\w+=')
+HOLDS = re.compile(
+    r'id="bet-|<section id="quiz">|<a href="#\w+\.\w+=|class="reset-book"'
+)
 
 
 def load(app, pagename, templatename, context, doctree):

@@ -3,7 +3,9 @@
 import { bindBets } from "./bets.js";
 import { bindMoments } from "./moments.js";
 import { bindQuiz } from "./quiz.js";
+import { bindReset } from "./reset.js";
 
 bindBets();
 bindQuiz();
 bindMoments();
+bindReset();
