@@ -286,7 +286,8 @@ defineScene("project", {
       }
       const part = `${number(100 * share(), 0)} % of ${lived(state.lives * robots().length)}`;
       if (scene.isLearning) return `${length} Racing: ${part}.`;
-      return share() > 0 && !isDone() ? `${length} Done: ${part}. It can go on.` : length;
+      if (isDone()) return `${length} All these runs are done: ask for more, or for others.`;
+      return share() > 0 ? `${length} Done: ${part}. It can go on.` : length;
     }
     const rows = () => {
       const goals = isDone() ? raced() : {};

@@ -3,7 +3,7 @@
 
 import { barChart } from "../ui/bars.js";
 import { button } from "../ui/controls.js";
-import { count, make, number, plural } from "../ui/dom.js";
+import { count, make, newId, number, plural } from "../ui/dom.js";
 import { layered } from "../ui/layers.js";
 import { lineChart } from "../ui/lines.js";
 import { defineScene } from "../ui/scene.js";
@@ -54,8 +54,9 @@ defineScene("surgery", {
     const chart = lineChart({ label: "Goals after the advice, by step", x, y, height: 220 });
     const view = layered({ label: "Where the robot has notes" });
     const shown = make("div", { class: "ab-body" }, make("p", { class: "ab-ylabel" }), view.node);
-    const words = make("p", {});
+    const words = make("p", { id: newId() }); // also why the button waits
     const go = button("Operate, and let it go on", operateNow, { primary: true });
+    go.node.setAttribute("aria-describedby", words.id);
     const stop = button("Stop", () => (scene.stop(), (running = []), scene.redraw()));
     scene.add(
       scene.bet("bet", {
@@ -241,11 +242,12 @@ defineScene("surgery", {
       const name = nameOf(state.patient, state.operation);
       if (here) {
         const at = `${number(100 * here[0], 0)} % of the states`;
-        return `${name}: notes in ${at}, and ${count(total(here))} goals after the advice.`;
+        return `${name}: notes in ${at}, and ${count(total(here))} goals after the advice. ` +
+          "This operation is done with this luck: choose another.";
       }
       if (busy && running[0] === "advice") return "Both robots are advised first …";
       if (busy) return `${name}: window ${n} of ${paper.windows - spec.advice} …`;
-      return state.bet ? `${name}: not operated on yet.` : "Place your bet, and operate.";
+      return state.bet ? `${name}: not operated on yet.` : "Place your bet first, then operate.";
     }
   },
 });

@@ -109,14 +109,15 @@ export function button(text, act, { primary = false, label, title } = {}) {
     class: primary ? "ab-button ab-primary" : "ab-button",
     "aria-label": label,
     title: title ?? label,
-    onclick: (event) => node.getAttribute("aria-disabled") === "true" || act(event),
+    onclick: (event) => is(true) || act(event),
   }, text);
+  const is = (disabled) => node.getAttribute("aria-disabled") === `${disabled}`;
   return {
     node,
     set: (next) => (node.textContent = next),
     rename: (name) => node.setAttribute("aria-label", node.title = name),
     // Not by `disabled`: a button that has the focus would lose it.
-    enable: (can) => node.setAttribute("aria-disabled", `${!can}`),
+    enable: (can) => is(!can) || node.setAttribute("aria-disabled", `${!can}`),
   };
 }
 
