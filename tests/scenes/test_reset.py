@@ -14,6 +14,7 @@ TRY = """async (patience) => {
     const pictures = async (n) => {
         while (n--) await new Promise(requestAnimationFrame);
     };
+    const later = () => new Promise((f) => setTimeout(f, 20));
     const isSeen = (each) => each.getClientRects().length > 0;
     const nameOf = (each) => each.getAttribute("aria-label") ??
         each.labels?.[0]?.textContent ?? each.textContent;
@@ -21,20 +22,21 @@ TRY = """async (patience) => {
         .filter(isSeen).filter((each) => each.closest(".ab-foot") === null);
     const reset = () => [...scene.querySelectorAll(".ab-foot button")]
         .find((each) => each.textContent === "Reset").click();
+    const text = (node) => [...node.childNodes].map((each) =>
+        each instanceof Text ? each.data
+            : each.matches?.("svg, option") ? "" : text(each)).join("");
     const look = () => {
-        const body = scene.querySelector(".ab-body").cloneNode(true);
-        body.querySelectorAll("svg, option").forEach((each) => each.remove());
         // A reset can be undone.
         const isUndo = (each) => /^(Undo|Redo)$/.test(each.textContent);
         const all = controls().filter((each) => !isUndo(each));
-        return JSON.stringify([body.textContent, all.map((each) => [
+        return JSON.stringify([text(scene.querySelector(".ab-body")), all.map((each) => [
             nameOf(each), each.type, each.value, each.checked, each.min, each.max,
             each.getAttribute("aria-disabled")])], null, 1);
     };
     const rests = async () => {
         let [before, same] = [look(), 0];
         while (same < 20) {
-            await pictures(1);
+            await later();
             const now = look();
             same = now === before && !/…|Learning|Grad climbs/.test(now) ? same + 1 : 0;
             before = now;
@@ -57,7 +59,7 @@ TRY = """async (patience) => {
         await pictures(3);
         reset();
         const end = Date.now() + patience;
-        while (look() !== start && Date.now() < end) await pictures(1);
+        while (look() !== start && Date.now() < end) await later();
         const now = look();
         if (now === start) continue;
         const lines = start.split("\\n");
