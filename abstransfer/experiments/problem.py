@@ -120,17 +120,36 @@ def build_guides(problem: Problem, names: Iterable[str]) -> dict[str, np.ndarray
     array([0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125])
     """
     names = list(names)
-    options = {"success": problem.success, "unavailable": problem.unavailable}
-    source = navigation_tasks(problem.source, **options)
-    guides = abstract_policies(source, [name for name in names if name != "rand"])
+    options = problem.success, problem.unavailable
+    source = _source_tasks(problem.source, *options)
+    guides = {
+        name: _built(name, problem.source, *options).copy()
+        for name in names
+        if name != "rand"
+    }
     moves = len(source.actions)
     if problem.actions == "compass":
-        compass = navigation_tasks(problem.source, actions="compass", **options)
+        compass = _source_tasks(problem.source, *options, "compass")
         guides |= _voted_by_moves(compass, source.possible, guides)
         moves = len(compass.actions)
     if "rand" in names:
         guides["rand"] = np.full((source.n_abstract, moves), 1 / moves)
     return guides
+
+
+@lru_cache(maxsize=8)
+def _source_tasks(
+    source: Map, success: float, unavailable: str, actions: str = "relational"
+) -> NavigationTasks:
+    return navigation_tasks(
+        source, success=success, unavailable=unavailable, actions=actions
+    )
+
+
+@lru_cache(maxsize=24)  # Grad takes a second to build, and depends on no target
+def _built(name: str, source: Map, success: float, unavailable: str) -> np.ndarray:
+    """Return the abstract policy (Z, A) of a builder; not to be written to."""
+    return abstract_policies(_source_tasks(source, success, unavailable), [name])[name]
 
 
 def driving_tasks(problem: Problem) -> NavigationTasks:
