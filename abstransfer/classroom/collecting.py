@@ -24,6 +24,7 @@ from pathlib import Path
 from .._interrupts import ends_in_time, interrupts_noted
 from ..exercises._model import first_of, page_of
 
+LAST = ("predictions", "cards", "same code as")
 SHOWN = {"not checked": "answered", "no answer yet": "", "hint": ""}
 PRIVATE = ("--user", "--map-root-user", "--net", "--pid", "--fork", "--kill-child")
 
@@ -158,7 +159,7 @@ def _rows(found: list[dict]) -> Iterable[list]:
     keys = sorted(
         keys | {key for s in found for key in s.get("replies", ())}, key=_order
     )
-    yield ["student", "file", "outcome", "right", *keys, "cards", "same code as"]
+    yield ["student", "file", "outcome", "right", *keys, *LAST]
     first = {}  # by digest, the first file with this code
     for said in found:
         replies, asked = said.get("replies", {}), said.get("asked", ())
@@ -174,6 +175,7 @@ def _rows(found: list[dict]) -> Iterable[list]:
             "empty" if is_empty else said["outcome"],
             sum(verdict == "right" for verdict in shown.values()),
             *(shown.get(key, "not run" if key in asked else "-") for key in keys),
+            said.get("predictions", ""),
             said.get("cards", ""),
             same if same != said["file"] and said.get("digest") else "",
         ]

@@ -1,5 +1,5 @@
 """
-What stands in a notebook that was handed in: whose it is, replies, cards.
+What stands in a notebook that was handed in: whose it is, replies, predictions, cards.
 """
 
 from __future__ import annotations
@@ -17,6 +17,13 @@ REPLY = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 MISTAKE = re.compile(r"This looks like: \*(.+?)\*\.")
+SEALED = re.compile(
+    r"\b(ex-\d+-\d+[b-z]?): sealed ([0-9a-f]{8}), "
+    r"(direction [-+], at least \S+?|no effect above \S+ either way)\.(?!\d)"
+)
+OPENED = re.compile(
+    r"\bex-\d+-\d+[b-z]?: (as predicted|refuted)\. Sealed ([0-9a-f]{8})"
+)
 ASKED = re.compile(r'\bcheck\(\s*["\'](ex-\d+-\d+[b-z]?)["\']')
 
 
@@ -75,6 +82,46 @@ def replies_in(text: str) -> dict[str, tuple[str, str]]:
     for key, verdict, words in REPLY.findall(text):
         mistake = MISTAKE.search(" ".join(words.split()))
         found[key] = (verdict, mistake[1] if mistake else "")
+    return found
+
+
+def predictions_said(before: list[str], again: list[str]) -> str:
+    """
+    Return in words which predictions were sealed, and what came of them.
+
+    Parameters
+    ----------
+    before, again : list of str
+        What the notebook said as it was handed in, and when it was run again.
+
+    Examples
+    --------
+    >>> said = ["ex-10-1: sealed 6412c89f, direction +, at least 0.05."]
+    >>> predictions_said(said, said)
+    'ex-10-1 6412c89f, direction +, at least 0.05'
+    >>> predictions_said(said, ["ex-10-1: sealed 0123abcd, direction -, at least 1."])
+    'ex-10-1 0123abcd, direction -, at least 1, but 6412c89f was handed in'
+    """
+    told, found = _sealed(before), _sealed(again)
+    came = {seal: word for word, seal in OPENED.findall("\n".join(before + again))}
+    words = []
+    for key in dict.fromkeys([*told, *found]):
+        seals = found.get(key) or told[key]
+        *others, seal = seals
+        text = f"{key} {seal}, {seals[seal]}"
+        text += f": {came[seal]}" if seal in came else ""
+        text += f", the last of {len(seals)}" if others else ""
+        other = [each for each in told.get(key, ()) if each not in seals]
+        text += f", but {', '.join(other)} was handed in" if other else ""
+        words.append(text if key in found else f"{text}, not made again")
+    return "; ".join(words)
+
+
+def _sealed(texts: list[str]) -> dict[str, dict[str, str]]:
+    """Return by exercise its seals, in order, each with what was sealed."""
+    found = {}
+    for key, seal, words in SEALED.findall("\n".join(texts)):
+        found.setdefault(key, {})[seal] = words
     return found
 
 

@@ -15,6 +15,7 @@ from .handed_in import (
     asked_in,
     cards_said,
     digest,
+    predictions_said,
     replies_in,
     student_of,
     texts_of,
@@ -76,6 +77,7 @@ def main(path: str, out: str, seconds: int, megabytes: int) -> None:
         said["outcome"] = "the kernel died"
     _tell(out, said)
     again = [text for cell in notebook.cells for text in texts_of(cell)]
+    said["predictions"] = predictions_said(handed_in, again)
     said["cards"] = cards_said([*handed_in, *again])
     _tell(out, said)
 

@@ -12,11 +12,12 @@ from abstransfer.classroom.collecting import collect
 from abstransfer.classroom.handed_in import (
     asked_in,
     digest,
+    predictions_said,
     replies_in,
     student_of,
     texts_of,
 )
-from abstransfer.exercises import check
+from abstransfer.exercises import Prediction, check
 
 IMPORT = "from abstransfer.exercises import check"
 
@@ -88,6 +89,44 @@ def test_asked_is_what_code_checks_and_a_digest_forgets_the_name():
     assert digest(one) == digest(two) != digest(other)
 
 
+# Predictions
+
+
+def predicted(direction, size, number=1):
+    bet = Prediction("ex-10-1", direction, size, number)
+    return repr(bet), bet
+
+
+@pytest.mark.parametrize("form", [str, repr])
+def test_a_prediction_and_what_came_of_it_are_read(form):
+    said, bet = predicted("+", 0.05)
+
+    assert predictions_said([said], [said, form(bet.compare(0.183))]) == (
+        f"ex-10-1 {bet.seal}, direction +, at least 0.05: as predicted"
+    )
+    assert predictions_said([said], [said, form(bet.compare(-1))]).endswith(": refuted")
+
+
+def test_the_last_of_several_predictions_counts_and_their_number_is_told():
+    (first, _), (second, bet) = predicted("+", 1.0), predicted("0", 0.5, 2)
+
+    assert predictions_said([], [first, second]) == (
+        f"ex-10-1 {bet.seal}, no effect above 0.5 either way, the last of 2"
+    )
+
+
+def test_a_prediction_that_was_changed_after_the_run_is_told():
+    (before, bet), (now, other) = predicted("+", 0.05), predicted("-", 0.05)
+
+    assert predictions_said([before], [now]) == (
+        f"ex-10-1 {other.seal}, direction -, at least 0.05, "
+        f"but {bet.seal} was handed in"
+    )
+    assert predictions_said([before], []) == (
+        f"ex-10-1 {bet.seal}, direction +, at least 0.05, not made again"
+    )
+
+
 # Running
 
 
@@ -95,8 +134,11 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
     folder, table = tmp_path / "in", tmp_path / "out.csv"
     folder.mkdir()
     right = (IMPORT, 'answer = 100\ncheck("ex-1-2", answer)')
-    hand_in(folder, "1_ann", 'student = "Ann"', *right)
+    bet = 'bet = predict("ex-10-1", direction="+", refuted_below=0.05)\nbet'
+    bets = ("from abstransfer.exercises import predict", bet, "bet.compare(0.1)")
+    hand_in(folder, "1_ann", 'student = "Ann"', *right, *bets)
     hand_in(folder, "2_bob", 'student = "Bob"', *right)
+    hand_in(folder, "2_bob_copied", 'student = "Bea"', *right)
     wrong = ("nothing", IMPORT, 'check("ex-1-2", 99)', "import os\nos._exit(3)")
     hand_in(folder, "3_cy", 'student = "=Cy"', *wrong)
     hand_in(folder, "4_di", IMPORT, 'check("ex-1-2", ...)', "1 / 0")
@@ -108,9 +150,10 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
 
     rows = rows_of(table)
     assert [row["student"] for row in rows] == [
-        *("Ann", "Bob", "'=Cy", "4_di", "5_torn", "6_word")
+        *("Ann", "Bob", "Bea", "'=Cy", "4_di", "5_torn", "6_word")
     ]
     assert [row["outcome"] for row in rows] == [
+        "ran",
         "ran",
         "ran",
         "the kernel died",
@@ -118,16 +161,26 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
         "no notebook",
         "no notebook",
     ]
-    wanted = ["right", "right", "not yet: without the first payment", "", "-", "-"]
+    wanted = [
+        "right",
+        "right",
+        "right",
+        "not yet: without the first payment",
+        "",
+        "-",
+        "-",
+    ]
     assert [row["ex-1-2"] for row in rows] == wanted
-    assert [row["right"] for row in rows] == ["1", "1", "0", "0", "0", "0"]
-    assert [row["same code as"] for row in rows] == ["", "1_ann.ipynb", *[""] * 4]
+    assert [row["right"] for row in rows] == ["1", "1", "1", "0", "0", "0", "0"]
+    sealed = "ex-10-1 6412c89f, direction +, at least 0.05: as predicted"
+    assert [row["predictions"] for row in rows] == [sealed, *[""] * 6]
+    assert [row["same code as"] for row in rows] == ["", "", "2_bob.ipynb", *[""] * 4]
     assert rows_of(tmp_path / "out_misconceptions.csv") == [
         {
             "exercise": "ex-1-2",
             "misconception": "without the first payment",
             "students": "1",
-            "of": "4",
+            "of": "5",
             "reread": "page 1",
         }
     ]
