@@ -4,9 +4,12 @@
 import { armStyle, drawn, marker, number, sheet } from "../ui/dom.js";
 import { spread } from "../ui/lines.js";
 
-const [TOP, BOTTOM, LEFT, RIGHT, LINE, SIZE] = [34, 12, 142, 130, 16, 6];
+const [TOP, BOTTOM, LINE, SIZE] = [34, 12, 16, 6];
+// Room to the left and right of the ladders, and between one and its labels; on a phone
+// less, without numbers at the lines: each rung has its own.
+const WIDE = { left: 142, right: 130, gap: 22 };
+const NARROW = { left: 124, right: 122, gap: 14 };
 const ASIDE = 2 * SIZE; // how far a mark steps that would cover another
-const LABEL = 22;
 const GLIDE = 400; // milliseconds
 
 // Steps aside of marks at these heights: every second one of those that are close.
@@ -52,21 +55,23 @@ export function makeLadders({ label, isCalm, height = 400 }) {
     cancelAnimationFrame(frame);
     if (!svg.isConnected) return;
     const now = performance.now();
+    const isNarrow = width < 400;
+    const { left, right, gap } = isNarrow ? NARROW : WIDE;
     const y = (value) => TOP - ((height - TOP - BOTTOM) * value) / 100;
     const thin = (arm) => `stroke:${armStyle(arm).color};stroke-width:1`;
     const text = (content, x, top, look) => drawn("text", { x, y: top, ...look }, content);
     const parts = [0, -20, -40, -60, -80, -100].flatMap((tick) => [
-      drawn("path", { d: `M28 ${y(tick)}H${width - 4}`, class: "ab-rule" }),
-      text(number(tick, 0), 0, y(tick) + 4, { class: "ab-faint" }),
+      drawn("path", { d: `M${isNarrow ? 0 : 28} ${y(tick)}H${width - 4}`, class: "ab-rule" }),
+      ...(isNarrow ? [] : [text(number(tick, 0), 0, y(tick) + 4, { class: "ab-faint" })]),
     ]);
     const lines = {};
     columns.forEach(({ title, hint, isFaint, rungs }, side) => {
-      const x = side ? width - RIGHT : LEFT;
+      const x = side ? width - right : left;
       const out = side ? 1 : -1;
       const end = side ? "start" : "end";
       parts.push(
         drawn("path", { d: `M${x} ${y(0)}V${y(-100)}`, class: "ab-axis" }),
-        text(title, x, TOP - 18, { "text-anchor": "middle", class: "ab-name" }),
+        text(title, x, TOP - 18, { "text-anchor": isNarrow ? end : "middle", class: "ab-name" }),
       );
       const shown = rungs.filter(({ value }) => Number.isFinite(value));
       const heights = shown.map(({ arm }) => y(placeOf(places[title + arm], now)));
@@ -76,7 +81,7 @@ export function makeLadders({ label, isCalm, height = 400 }) {
         const px = x + out * aside[i];
         (lines[arm] ??= []).push(`${px} ${heights[i]}`);
         const words = `${armStyle(arm).name} ${number(value)}${note ? " …" : ""}`;
-        const [row, label] = [rows[i], x + out * LABEL];
+        const [row, label] = [rows[i], x + out * gap];
         parts.push(
           drawn("path", {
             d: `M${px} ${heights[i]}L${label - out * 3} ${row}`,

@@ -72,7 +72,6 @@ defineScene("project", {
       type: "text",
       maxlength: 60,
       placeholder: "Ann Lee",
-      "aria-label": "Your name",
       onchange: () => scene.set({ student: whose.value }),
     });
     scene.control("student", (value) => (whose.value = value));

@@ -3,7 +3,7 @@
 
 import { barChart } from "../ui/bars.js";
 import { button } from "../ui/controls.js";
-import { count, make, newId, number, plural } from "../ui/dom.js";
+import { count, make, millions, newId, number, plural } from "../ui/dom.js";
 import { layered } from "../ui/layers.js";
 import { lineChart } from "../ui/lines.js";
 import { defineScene } from "../ui/scene.js";
@@ -49,7 +49,7 @@ defineScene("surgery", {
     const window = () => runs.windowOf(state.steps);
 
     const bars = barChart({ label: "Goals after the advice", format: count });
-    const x = { label: "steps after the advice", format: (n) => `${number(n / 1e6)} M`, min: 0 };
+    const x = { label: "steps after the advice", format: millions, min: 0 };
     const y = { label: "goals, window by window", min: 0 };
     const chart = lineChart({ label: "Goals after the advice, by step", x, y, height: 220 });
     const view = layered({ label: "Where the robot has notes" });
@@ -218,6 +218,7 @@ defineScene("surgery", {
         const curve = [0, ...growing[key]];
         curves.push({ ...found[0], curve, isLeft: false, arm: `${state.patient}-soft` });
       }
+      chart.node.hidden = !curves.length;
       chart.set({
         curves: curves.map(({ name, arm, curve, isLeft }) => ({
           name: isLeft ? name.replace(", as left", "") : "operated",
