@@ -26,15 +26,19 @@ SOURCES = sorted(Path(__file__).parent.glob("*.py"))
 STAMP = sha256(b"".join(map(Path.read_bytes, SOURCES))).digest()
 
 
-def compiled(function, **options):
-    """Compile a loop when it is first called; keep it where a folder can be written."""
+def compiled(function, stamp=STAMP, **options):
+    """
+    Compile a loop when it is first called; keep it where a folder can be written.
+
+    `stamp` says of which sources: with another one it is compiled anew.
+    """
     made = njit(nogil=True, **options)(function)
     if made is not function:  # else numba is told to compile nothing
         try:
             made.enable_caching()
         except RuntimeError:  # nowhere: it is compiled at each start
             return made
-        made._cache._cache_file._source_stamp = STAMP  # numba's own: of one file
+        made._cache._cache_file._source_stamp = stamp  # numba's own: of one file
     return made
 
 

@@ -188,9 +188,8 @@ class Learner:
 
     def results(self) -> list[QLearningResult]:
         """Return what each run learned so far."""
-        return [
-            self._result(part.n_steps, run) for part in self._parts for run in part.runs
-        ]
+        runs = [(part.n_steps, run) for part in self._parts for run in part.runs]
+        return [self._result(*run) for run in runs]
 
     def _result(self, n_steps: int, run) -> QLearningResult:
         shape = self.settings.mdp.allowed.shape

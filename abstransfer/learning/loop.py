@@ -105,6 +105,21 @@ def choose(t, s, luck, q, guide, rule):
     return pick(q, s, largest(q, s), field), GREEDY
 
 
+@inlined
+def improve(s, a, s_next, world, q, rule):
+    """Change Q(s, a) by what the step to s_next brought: Eq. 1 of the paper."""
+    target = world.reward[s_next] + rule.gamma * largest(q, s_next)
+    q[s, a] = (1.0 - rule.alpha) * q[s, a] + rule.alpha * target
+
+
+@inlined
+def restart(s, world, rule, run):
+    """Count the episode that ended in s; return where the next begins, its steps."""
+    run.ended[GOALS if world.terminal[s] else CUTS] += 1
+    word = next_word(run.rng[STARTS])
+    return world.start[(word * len(world.start)) >> 32], rule.max_episode
+
+
 @compiled
 def learn(first, last, world, guide, rule, run, who, what):
     """
@@ -120,16 +135,12 @@ def learn(first, last, world, guide, rule, run, who, what):
         k = 0
         while fate >= world.bound[s, a, k]:
             k += 1
-        s_next = np.int64(world.next_state[s, a, k])
-        r, old = world.reward[s_next], q[s, a]
-        target = r + rule.gamma * largest(q, s_next)
-        q[s, a] = (1.0 - rule.alpha) * old + rule.alpha * target
+        s_next, old = np.int64(world.next_state[s, a, k]), q[s, a]
+        improve(s, a, s_next, world, q, rule)
         if t - first < len(who):
             who[t - first] = s, a, how, s_next
-            what[t - first] = r, old, q[s, a]
+            what[t - first] = world.reward[s_next], old, q[s, a]
         s, left = s_next, left - 1
         if world.terminal[s] or left == 0:
-            run.ended[GOALS if world.terminal[s] else CUTS] += 1
-            word = next_word(run.rng[STARTS])
-            s, left = world.start[(word * len(world.start)) >> 32], rule.max_episode
+            s, left = restart(s, world, rule, run)
     run.place[0], run.place[1] = s, left
