@@ -54,6 +54,7 @@ _CORE = {
 _LEARNING = ["q_learning", "q_learning_runs"]
 _ROOMS = [
     "learning",
+    "rivals",
     "experiments",
     "plotting",
     "reproduction",

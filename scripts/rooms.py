@@ -33,6 +33,7 @@ CORE = (
 ABOVE = (
     "foreign.py",
     "learning/_*.py",
+    "rivals/",
     "experiments/",
     "plotting/",
     "reproduction/",

@@ -12,17 +12,9 @@ import abstransfer
 PACKAGE = Path(abstransfer.__file__).parent
 # A module imports from its own room and from rooms before it.  Pictures come before the
 # reproduction, because that draws figures.
-ORDER = [
-    "_paths",
-    "_interrupts",
-    "foreign",
-    "maps",
-    "mdp",
-    "abstraction",
-    "navigation",
-    "solvers",
-]
-ORDER += ["policies", "builders", "driving", "learning", "experiments", "plotting"]
+ORDER = ["_paths", "_interrupts", "foreign", "maps", "mdp", "abstraction"]
+ORDER += ["navigation", "solvers", "policies", "builders", "driving", "learning"]
+ORDER += ["rivals", "experiments", "plotting"]
 ORDER += ["reproduction", "project", "gymnasium", "scenes", "exercises"]
 ORDER += ["classroom", "cli"]
 ORDER += ["__main__", "__init__"]
