@@ -6,7 +6,7 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["figures", "hypotheses", "traps"],
+    submodules=["bench", "figures", "hypotheses", "neighbours", "traps"],
     submod_attrs={
         "catalogue": ["EXPERIMENTS", "reproduce"],
         "guides": ["BETAS", "SHARES", "make_guides"],

@@ -8,6 +8,7 @@ runs in pairs, or over buildings where each run has its own.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
@@ -41,7 +42,7 @@ LEAD = {ND: 1, PROB: -1}
 
 
 class Prediction(NamedTuple):
-    """A row of ``data/hypotheses.md``, in its words."""
+    """A row of ``data/hypotheses.md``, or of ``hypotheses-blind.md``, in its words."""
 
     claim: str  #: what is claimed
     rule: str  #: how it is judged
@@ -51,17 +52,21 @@ class Prediction(NamedTuple):
 
 def predictions() -> dict[str, Prediction]:
     """
-    Return the rows of ``data/hypotheses.md``, by key.
+    Return the rows of ``data/hypotheses.md`` and ``hypotheses-blind.md``, by key.
 
     >>> predictions()["N9"].predicted
     'holds in all four'
     """
-    text = (DATA / "hypotheses.md").read_text(encoding="utf-8")
     rows = [
         [cell.strip() for cell in line.strip("| ").split(" | ")]
-        for line in text.splitlines()
+        for path in sorted(DATA.glob("hypotheses*.md"))
+        for line in path.read_text(encoding="utf-8").splitlines()
     ]
-    return {key: Prediction(*words) for key, *words in rows if key in RULES}
+    return {
+        key: Prediction(*words)
+        for key, *words in rows
+        if re.fullmatch(r"[A-Z]\d+", key)
+    }
 
 
 # Contrasts: arms with weights, run by run, above 0 if the hypothesis is right.

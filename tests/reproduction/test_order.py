@@ -6,6 +6,9 @@ import subprocess
 import pytest
 from support import ROOT
 
+from abstransfer.experiments.results import stored_results
+from abstransfer.reproduction import bench_rules
+from abstransfer.reproduction.bench import NEIGHBOURS
 from abstransfer.reproduction.catalogue import EXPERIMENTS
 from abstransfer.reproduction.hypotheses import RULES, judge_hypotheses, predictions
 
@@ -16,6 +19,7 @@ SECOND = [
         ("controls", "compass", "masked", "traps", "operations", "drawn", "study-own")
     )
 ]
+BENCH = [one.folder for one in NEIGHBOURS if one.folder in stored_results()]
 
 
 def git(*arguments):
@@ -33,14 +37,22 @@ def history():
         pytest.skip("no history here")
     if git("rev-parse", "--is-shallow-repository") == ["true"]:
         pytest.skip("a copy without its whole history")
-    return git("log", "--format=%H", "--reverse", "--", "data/hypotheses.md")
+    return lambda path: git("log", "--format=%H", "--reverse", "--", f"data/{path}")
 
 
-@pytest.mark.parametrize("folder", SECOND)
-def test_the_hypotheses_were_last_changed_before_the_results_came(history, folder):
-    came = git("log", "--format=%H", "--reverse", "--", f"data/results/{folder}")[0]
+@pytest.mark.parametrize(
+    ("folder", "text"),
+    [
+        *((folder, "hypotheses.md") for folder in SECOND),
+        *((folder, "hypotheses-bench.md") for folder in BENCH),
+    ],
+)
+def test_the_hypotheses_were_last_changed_before_the_results_came(
+    history, folder, text
+):
+    came = history(f"results/{folder}")[0]
 
-    for commit in history:
+    for commit in history(text):
         subprocess.run(
             ["git", "merge-base", "--is-ancestor", commit, came], cwd=ROOT, check=True
         )
@@ -50,5 +62,6 @@ def test_the_hypotheses_were_last_changed_before_the_results_came(history, folde
 def test_every_hypothesis_has_its_row_and_is_judged():
     said, judged = predictions(), judge_hypotheses()
 
-    assert said.keys() == judged.keys() == RULES.keys()
+    assert judged.keys() == RULES.keys()
+    assert said.keys() == {*RULES, *bench_rules.RULES}
     assert all(found.parts for found in judged.values())
