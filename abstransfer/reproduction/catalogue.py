@@ -21,7 +21,8 @@ from pathlib import Path
 from ..experiments.arms import ARMS, STRATEGIES, TAUS, Arm, tau_cells
 from ..experiments.problem import Problem
 from ..experiments.results import Results
-from .folders import Experiment, Operated
+from .blind import BLIND, TEACHER, WHISPER
+from .folders import Experiment, Operated, Searched, Survey
 from .guides import ADVICE, TAU, TINY
 from .traps import EXCHANGED
 
@@ -143,6 +144,29 @@ _SECOND_EDITION = (
     Operated("drawn", 20, None),
 )
 EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION
+#: What one command repeats alone.
+STUDIES = {"blind": BLIND, "whisper": WHISPER, "teacher": TEACHER}
+
+
+def study(
+    name: str, n_buildings: int | None = None
+) -> tuple[Survey | Searched | Operated, ...]:
+    """
+    Return the experiments of a study; with fewer than its drawn buildings, on demand.
+
+    >>> [len(one.seeds) for one in study("blind", 8)[:2]]
+    [8, 8]
+    """
+    if name not in STUDIES:
+        raise ValueError(f"study must be one of {', '.join(STUDIES)}, got {name!r}")
+    return tuple(
+        one._replace(n_runs=min(one.n_runs, n_buildings or one.n_runs))
+        if isinstance(one, Operated)
+        else one._replace(seeds=one.seeds[:n_buildings])
+        if isinstance(one, Survey)
+        else one
+        for one in STUDIES[name]
+    )
 
 
 def in_place_of_target(target: str) -> tuple[Experiment | Operated, ...]:

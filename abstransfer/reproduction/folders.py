@@ -6,18 +6,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from ..experiments.arms import ARMS, STRATEGIES, Arm, tau_cells
+from ..experiments.arms import ARMS, SCALES, STRATEGIES, Arm, Scale, tau_cells
 from ..experiments.problem import GUIDES, Problem
 from ..experiments.results import load_results
 from ..experiments.run import run_experiment
 from ..experiments.tuning import tune, tuned_arms
-from ..maps import read_map
+from ..maps import Map, read_map
+from .buildings import BLOCKS, draw_building
 from .guides import ADVICE, TAU, make_guides
 from .interventions import run_operations
 from .operations import MAIN, OPERATIONS
+from .searches import run_search
+from .surveys import Told, run_survey, settle
 from .traps import EXCHANGED
 
 
@@ -83,14 +87,17 @@ class Operated(NamedTuple):
     folder: str  #: its name below data/results
     n_runs: int  #: runs of each operation
     target: str | None  #: name of the map; None for a drawn one each run
+    first: int = 0  #: seed of the first drawn building
+    operations: tuple[str, ...] = ()  #: by default all, in drawn buildings MAIN
 
     def run(self, out: str | Path, problem: Problem | None = None, **options):
         """Return the results, from its folder in `out`; see `reproduce`."""
         options = {"n_runs": self.n_runs} | options
         return run_operations(
             self.here(problem),
-            operations=OPERATIONS if self.target else MAIN,
+            operations=self.operations or (OPERATIONS if self.target else MAIN),
             drawn=not self.target,
+            first=self.first,
             out=Path(out) / self.folder,
             **options,
         )
@@ -101,3 +108,85 @@ class Operated(NamedTuple):
         if not self.target:
             return problem
         return replace(problem, target=read_map(self.target))
+
+
+class Survey(NamedTuple):
+    """One folder of results of arms in many buildings, or in one."""
+
+    folder: str  #: its name below data/results
+    n_runs: int  #: runs of each arm in each building
+    given: tuple[Told, ...]  #: what is compared
+    target: str | None = None  #: name of the map; None for drawn ones
+    seeds: tuple[int, ...] = ()  #: of the drawn ones
+    blocks: tuple[int, int] = BLOCKS  #: their size
+    problem: Mapping = {}  #: what is not the problem of the book
+    stream: str = "report"  #: of seeds; "tune" for what finds the best
+    drives: tuple[str, ...] = ()  #: arms whose advice is also driven
+    per_state: bool = False  #: as many steps for each state as in the target's size
+
+    def run(self, out: str | Path, problem: Problem | None = None, **options):
+        """Return the results, from its folder in `out`; see `reproduce`."""
+        options = {"n_runs": self.n_runs, "scale": "paper"} | options
+        buildings = [draw_building(seed, self.blocks) for seed in self.seeds]
+        if self.target:
+            buildings = [read_map(self.target)]
+        if self.per_state:
+            options["scale"] = per_state(options["scale"], buildings[0])
+        return run_survey(
+            self.arms(out),
+            buildings,
+            self.here(problem),
+            stream=self.stream,
+            drives=self.drives,
+            out=Path(out) / self.folder,
+            **options,
+        )
+
+    def here(self, problem: Problem | None = None) -> Problem:
+        """Return a problem, by default the book's, as it is read here."""
+        return replace(problem or Problem(), **self.problem)
+
+    def arms(self, out: str | Path) -> tuple[Told, ...]:
+        """Return what is compared; a tuned arm is read from its folder in `out`."""
+        return tuple(
+            settle(one, load_results(Path(out) / one.own)) if one.own else one
+            for one in self.given
+        )
+
+
+class Searched(NamedTuple):
+    """One folder of results of a search for the best teacher."""
+
+    folder: str  #: its name below data/results
+    n_runs: int  #: runs of each trial
+    target: str  #: name of the map
+
+    def run(self, out: str | Path, problem: Problem | None = None, **options):
+        """Return the results, from its folder in `out`; see `reproduce`."""
+        options = {"n_runs": self.n_runs, "scale": "paper"} | options
+        problem = self.here(problem)
+        options["scale"] = per_state(options["scale"], problem.target)
+        return run_search(problem, out=Path(out) / self.folder, **options)
+
+    def here(self, problem: Problem | None = None) -> Problem:
+        """Return a problem, by default the book's, as it is read here."""
+        return replace(problem or Problem(), target=read_map(self.target))
+
+
+def per_state(scale: str | Scale, building: Map) -> Scale:
+    """
+    Return a scale with as many steps for each state as it has in the target.
+
+    >>> per_state("paper", read_map("target")).steps
+    30000000
+    >>> per_state("paper", read_map("source")).steps
+    2357143
+    """
+    steps = SCALES[scale].steps if isinstance(scale, str) else scale.steps
+    here, there = (map_.n_cells * len(map_.goals) for map_ in (building, _target()))
+    return Scale(round(steps * here / there), 1)
+
+
+@cache
+def _target() -> Map:
+    return read_map("target")

@@ -135,6 +135,7 @@ def run_operations(
     operations: Iterable[str] = tuple(OPERATIONS),
     n_runs: int = 6,
     drawn: bool = False,
+    first: int = 0,
     scale: str | Scale = "paper",
     seed: int = SEED,
     executor: Executor | None = None,
@@ -152,7 +153,8 @@ def run_operations(
     operations : iterable of names in OPERATIONS
     n_runs : int, default 6
     drawn : bool
-        Run i has a building of its own, that of seed i.
+        Run i has a building of its own, that of seed `first` + i.
+    first : int, default 0
     scale, seed, executor, n_workers, out, on_progress
         As for :func:`~abstransfer.experiments.run.run_experiment`, to which a
         folder and an interrupt are the same.
@@ -196,7 +198,8 @@ def run_operations(
     )
     problems = [problem] * n_runs
     if drawn:
-        problems = [replace(problem, target=draw_building(i)) for i in range(n_runs)]
+        seeds = range(first, first + n_runs)
+        problems = [replace(problem, target=draw_building(i)) for i in seeds]
 
     def jobs(done):
         for run in range(n_runs):

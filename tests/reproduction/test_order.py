@@ -7,9 +7,9 @@ import pytest
 from support import ROOT
 
 from abstransfer.experiments.results import stored_results
-from abstransfer.reproduction import bench_rules
+from abstransfer.reproduction import bench_rules, blind_rules
 from abstransfer.reproduction.bench import NEIGHBOURS
-from abstransfer.reproduction.catalogue import EXPERIMENTS
+from abstransfer.reproduction.catalogue import EXPERIMENTS, STUDIES
 from abstransfer.reproduction.hypotheses import RULES, judge_hypotheses, predictions
 
 SECOND = [
@@ -20,6 +20,12 @@ SECOND = [
     )
 ]
 BENCH = [one.folder for one in NEIGHBOURS if one.folder in stored_results()]
+BLIND = [
+    one.folder
+    for experiments in STUDIES.values()
+    for one in experiments
+    if one.folder in stored_results()
+]
 
 
 def git(*arguments):
@@ -45,6 +51,7 @@ def history():
     [
         *((folder, "hypotheses.md") for folder in SECOND),
         *((folder, "hypotheses-bench.md") for folder in BENCH),
+        *((folder, "hypotheses-blind.md") for folder in BLIND),
     ],
 )
 def test_the_hypotheses_were_last_changed_before_the_results_came(
@@ -63,5 +70,5 @@ def test_every_hypothesis_has_its_row_and_is_judged():
     said, judged = predictions(), judge_hypotheses()
 
     assert judged.keys() == RULES.keys()
-    assert said.keys() == {*RULES, *bench_rules.RULES}
+    assert said.keys() == {*RULES, *bench_rules.RULES, *blind_rules.RULES}
     assert all(found.parts for found in judged.values())
