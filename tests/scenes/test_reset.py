@@ -29,9 +29,10 @@ TRY = """async (patience) => {
         // A reset can be undone.
         const isUndo = (each) => /^(Undo|Redo)$/.test(each.textContent);
         const all = controls().filter((each) => !isUndo(each));
-        return JSON.stringify([text(scene.querySelector(".ab-body")), all.map((each) => [
+        const states = all.map((each) => [
             nameOf(each), each.type, each.value, each.checked, each.min, each.max,
-            each.getAttribute("aria-disabled")])], null, 1);
+            each.getAttribute("aria-disabled")]);
+        return JSON.stringify([text(scene.querySelector(".ab-body")), states], null, 1);
     };
     const rests = async () => {
         let [before, same] = [look(), 0];
