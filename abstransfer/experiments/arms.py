@@ -16,6 +16,7 @@ from ..learning.settings import STRATEGIES, choice, number, whole
 from ..mdp import LARGEST
 
 PAPER_STEPS = 30_000_000
+MOST_WINDOWS = 10_000_000  # of all runs together, which are held in memory
 
 
 class Arm(NamedTuple):

@@ -11,13 +11,12 @@ import numpy as np
 
 from ..driving import advised
 from ..learning.settings import exact_seed, whole
-from .arms import SCALES, Arm, Scale, check_arms
+from .arms import MOST_WINDOWS, SCALES, Arm, Scale, check_arms
 from .problem import GUIDES, Problem, build_guides, digest, target_tasks
 from .workers import Job
 
 SEED = 2015  # the year of the paper
 STREAMS = {"report": 0, "tune": 1}
-MOST_WINDOWS = 10_000_000  # of all runs together, which are held in memory
 CHUNK = 6  # runs in a job; they share the loop, so that none waits for memory alone
 
 

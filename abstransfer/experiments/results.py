@@ -12,6 +12,7 @@ import gzip
 import hashlib
 import io
 import json
+import math
 import os
 from collections.abc import Mapping
 from contextlib import contextmanager
@@ -21,10 +22,12 @@ from typing import NamedTuple
 import numpy as np
 
 from .._paths import DATA
-from .arms import Arm
+from .arms import MOST_WINDOWS, Arm
 
 TABLE, RECORD, UNFINISHED = "goals.csv.gz", "experiment.json", "unfinished.jsonl"
 HEADER = "arm,tau,run,window,goals"
+OVERHEAD = 1000  # bytes that packing adds at most to a text that cannot be packed
+LARGEST_RECORD = 50_000_000  # bytes
 
 
 class Results(NamedTuple):
@@ -74,13 +77,17 @@ def load_results(folder: str | Path) -> Results:
         raise FileNotFoundError(f"{folder}: no results here ({RECORD} is missing)")
     if not path.exists():
         raise ValueError(f"{path}: missing, though {RECORD} speaks of it")
-    table = path.read_bytes()
+    try:
+        parts = _described(record)
+    except (ArithmeticError, LookupError, TypeError, ValueError):
+        raise ValueError(f"{folder / RECORD}: describes no table of goals") from None
+    table = _read(path, _longest(*parts) + OVERHEAD)
     if _sha256(table) != record["sha256"][TABLE]:
         raise ValueError(
             f"{path}: not the table that {RECORD} speaks of, by its sha256"
         )
     try:
-        return _parse(table, record)
+        return _parse(table, record, *parts)
     except (ArithmeticError, LookupError, TypeError, ValueError, EOFError, OSError):
         message = f"{path}: not a table of goals as {RECORD} describes it"
         raise ValueError(message) from None
@@ -123,9 +130,11 @@ def read_record(folder: Path) -> dict | None:
     """Return the record of a folder, None if it has none; refuse a damaged one."""
     path = Path(folder) / RECORD
     try:
-        record = json.loads(path.read_bytes())
+        data = _read(path, LARGEST_RECORD)
     except FileNotFoundError:
         return None
+    try:
+        record = json.loads(data)
     except (ValueError, RecursionError):
         raise ValueError(f"{path}: damaged, it is not JSON") from None
     sums = record.get("sha256") if isinstance(record, dict) else None
@@ -146,21 +155,42 @@ def naming(path: Path):
         raise OSError(error.errno, error.strerror, str(path)) from None
 
 
-def _parse(table: bytes, record: Mapping) -> Results:
-    """Return the results that a table holds; raise if it is not just as written."""
+def _read(path: Path, most: int) -> bytes:
+    """Return the bytes of a file; refuse one that is too large, without reading it."""
+    with open(path, "rb") as file:
+        size = os.fstat(file.fileno()).st_size
+        if size > most:
+            raise ValueError(f"{path}: {size:,} bytes, where at most {most:,} can be")
+        return file.read(size)
+
+
+def _described(record: Mapping) -> tuple[tuple[Arm, ...], tuple[int, int, int], int]:
+    """Return what the table must hold: arms, shape and steps of a window."""
     parameters = record["parameters"]
     arms = tuple(
         Arm(**{f: a[f] for f in Arm._fields if f in a}) for a in parameters["arms"]
     )
-    n_windows = parameters["steps"] // parameters["window"]
-    shape = len(arms), parameters["runs"], n_windows
+    runs, window = parameters["runs"], parameters["window"]
+    shape = len(arms), runs, parameters["steps"] // window
+    if not 0 < math.prod(shape) <= MOST_WINDOWS:
+        raise ValueError(f"arms, runs, windows must be few, got {shape}")
+    return arms, shape, window
+
+
+def _longest(arms, shape: tuple[int, int, int], window: int) -> int:
+    """Return how many bytes a table has at most."""
+    row = max(len(f"{arm.name},{arm.tau},{shape[1:]},{window}") for arm in arms)
+    return len(HEADER) + math.prod(shape) * row
+
+
+def _parse(table: bytes, record: Mapping, arms, shape, window: int) -> Results:
+    """Return the results that a table holds; raise if it is not just as written."""
     # A small file can unpack to a very large one: read no more than there may be.
-    largest = _text(arms, np.broadcast_to(parameters["window"], shape))
     with gzip.open(io.BytesIO(table)) as file:
-        text = file.read(len(largest) + 1).decode("ascii")
+        text = file.read(_longest(arms, shape, window) + 1).decode("ascii")
     values = [int(line.rpartition(",")[2]) for line in text.split("\n")[1:-1]]
     goals = np.array(values, dtype=np.int64).reshape(shape)
-    if goals.min() < 0 or goals.max() > parameters["window"]:
+    if goals.min() < 0 or goals.max() > window:
         raise ValueError("more goals than steps, or fewer than none")
     if text != _text(arms, goals):
         raise ValueError("rows are not those of the experiment, one after another")

@@ -9,9 +9,12 @@ import sys
 import threading
 import tracemalloc
 from concurrent.futures import Executor, ThreadPoolExecutor
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from support import ROOT, NoExecutor, unavailable
 
 from abstransfer import read_map
@@ -28,8 +31,10 @@ from abstransfer.experiments.problem import (
 from abstransfer.experiments.results import Results, load_results, save_results
 from abstransfer.experiments.run import run_experiment
 from abstransfer.experiments.store import claim
+from abstransfer.experiments.surgery import leave
 from abstransfer.learning import q_learning
 from abstransfer.policies import restrict_policy
+from abstransfer.project.racing import race
 
 SMALL = Scale(30_000, 10_000)
 PROBLEM = Problem(target=read_map("source"))
@@ -287,12 +292,6 @@ def test_a_folder_of_another_experiment_is_refused_by_name(
         ({"arms": (Arm("x", "nd", "hard", -5),)}, "tau of arm 'x' .* got -5"),
         ({"arms": (Arm("x", "nd", "hard", float("nan")),)}, "tau of arm 'x'"),
         ({"arms": (Arm("x", "best", "hard", 5),)}, "guide of arm 'x' must be one of"),
-        ({"arms": (Arm("a,b", None, "hard", 0),)}, "plain word"),
-        ({"arms": (Arm("na\xefve", None, "hard", 0),)}, "plain word"),
-        ({"arms": (Arm("a\r", None, "hard", 0),)}, "plain word"),
-        ({"guides": {"x": np.full((2048, 8), np.nan)}}, "guide .x. is none: .* nan"),
-        ({"guides": {"x": np.ones((2048, 8))}}, "guide .x. is none: .* sum to 1"),
-        ({"guides": {"x": np.ones((7, 8))}}, "guide .x. is none: .* shape"),
         (
             {"arms": (Arm("x", None, "hard", 0, float("inf")),)},
             "hint of arm 'x' must be a number from .*, got inf",
@@ -305,6 +304,59 @@ def test_bad_arguments_are_refused_before_a_step(tmp_path, options, complaint):
         run(**options)
 
     assert not (tmp_path / "new").exists()
+
+
+def doors(tasks):
+    """Return all that take a guide, each as a function of an abstract policy."""
+    mdp, none = tasks.mdp, np.zeros((tasks.mdp.n_states, 8), bool)
+    grounded = {"tau": 5, "rng": 0}
+    return {
+        "run_experiment": lambda guide: run(
+            THREE[:1], guides={"x": guide}, executor=NoExecutor()
+        ),
+        "race": lambda guide: race(tasks, {"x": guide}, steps=10, tau=5, n_runs=1),
+        "executed_values": lambda guide: executed_values(tasks, {"x": guide}),
+        "q_learning": lambda guide: q_learning(
+            mdp, 10, guide=guide[tasks.rho % len(guide)], **grounded
+        ),
+        "leave": lambda guide: leave(
+            mdp, none, {"x": guide[tasks.rho % len(guide)]}, 5, seed=0
+        ),
+    }
+
+
+NO_POLICY = {
+    "not a number": np.full((2048, 8), np.nan),
+    "negative": np.tile([2.0, -1, 0, 0, 0, 0, 0, 0], (2048, 1)),
+    "all zero": np.zeros((2048, 8)),
+    "a sum of 8": np.ones((2048, 8)),
+    "too few actions": np.full((2048, 4), 0.25),
+}
+
+
+@pytest.mark.parametrize("guide", NO_POLICY.values(), ids=NO_POLICY)
+@pytest.mark.parametrize("door", doors(target_tasks(PROBLEM)))
+def test_a_guide_that_is_no_policy_is_refused_at_every_door(door, guide):
+    tasks = target_tasks(PROBLEM)
+
+    with pytest.raises(ValueError, match="guide|advice|policy"):
+        doors(tasks)[door](guide)
+    doors(tasks)["executed_values"](np.full((2048, 8), 1 / 8))  # which is one
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.text() | st.sampled_from(["a,b", "na\xefve", "a\x85", "a\r", "a b", '"']))
+def test_an_arm_has_a_name_that_can_be_stored_or_no_step_is_made(name):
+    arms = (Arm(name, None, "hard", 0),)
+    if not name or not (name.isascii() and name.isprintable()) or {*name} & set("\"',"):
+        with pytest.raises(ValueError, match="must be a plain word"):
+            make_plan(arms, PROBLEM, SMALL, 1)
+        return
+    plan = make_plan(arms, PROBLEM, SMALL, 1)
+    goals = np.zeros(plan.shape, np.int64)
+    with TemporaryDirectory() as folder:
+        save_results(folder, Results(arms, goals, {"parameters": parameters(plan)}))
+        assert load_results(folder).arms == arms
 
 
 @pytest.mark.parametrize(
@@ -350,20 +402,36 @@ def test_a_table_that_does_not_fit_its_record_is_refused(tmp_path, expected):
             load_results(tmp_path)
 
 
-def test_a_small_file_that_unpacks_to_a_large_one_is_refused_unread(
-    tmp_path, expected, monkeypatch
+@pytest.mark.parametrize(
+    ("make", "complaint"),
+    [
+        (lambda: gzip.compress(bytes(2_500_000)), "not a table of goals as"),
+        (lambda: bytes(50_000_000), "50,000,000 bytes, where at most "),
+    ],
+    ids=["unpacks to a large one", "is large"],
+)
+def test_a_file_of_another_size_than_its_record_can_mean_is_not_read_whole(
+    tmp_path, expected, monkeypatch, make, complaint
 ):
-    bomb = gzip.compress(bytes(50_000_000))
     record = {"parameters": parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS))}
-    monkeypatch.setattr(results, "_table", lambda results: bomb)
+    monkeypatch.setattr(results, "_table", lambda results: make())
     save_results(tmp_path, expected._replace(record=record))
 
     tracemalloc.start()
-    with pytest.raises(ValueError, match="goals.csv.gz: not a table of goals as"):
+    with pytest.raises(ValueError, match=f"goals.csv.gz: {complaint}"):
         load_results(tmp_path)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert most < 10_000_000
+    assert most < 1_000_000
+
+
+@pytest.mark.parametrize("changed", [{"runs": 10**9}, {"runs": 0}, {"window": "all"}])
+def test_a_record_of_a_table_that_cannot_be_is_refused(tmp_path, expected, changed):
+    there = parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS)) | changed
+    save_results(tmp_path, expected._replace(record={"parameters": there}))
+
+    with pytest.raises(ValueError, match="experiment.json: describes no table"):
+        load_results(tmp_path)
 
 
 @pytest.mark.parametrize(
