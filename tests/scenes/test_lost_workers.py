@@ -1,14 +1,17 @@
 """A worker that the page loses while it learns: every number stays what it was."""
 
 import re
+from pathlib import Path
 
 import pytest
 from run_scenes import Shown
 from scene_tab import bare
 
-from abstransfer.scenes import Dial, Project, Race, TauSlider
+from abstransfer import scenes
+from abstransfer.scenes import Dial, Project, Race, Surgery, TauSlider
 
 STEPS = 600_000
+OPERATION = {"patient": "nd", "operation": "erase"}
 SKIP = "I do not bet: show me"
 # The first message that the page does not hear any more, and what it hears instead.
 LOSING = """
@@ -57,23 +60,45 @@ def project(tab):
     return tab.wait("with the same luck", ".ab-closing")
 
 
+def surgery(tab):
+    tab.bet("some of it").button("Operate").click()
+    return tab.wait("goals after the advice.", ".ab-body > p")
+
+
 CASES = {
     "race": (Race, {"full": True, "steps": STEPS}, race, 30),
     "tau": (TauSlider, {"steps": STEPS}, tau, 30),
     "dial": (Dial, {"steps": STEPS}, dial, 30),
     "project": (Project, {"lives": 1}, project, 5),
+    "surgery": (Surgery, {"steps": STEPS, **OPERATION}, surgery, 20),
 }
+
+
+def told(tab):
+    """Return all numbers that a scene shows, those of the result card as well."""
+    card = tab.root.locator("textarea[aria-label='The result card as text']")
+    return tab.table(), card.count() and card.input_value()
+
+
+def test_each_scene_that_learns_is_tried():
+    learns = re.compile(r"\bscene\.learn\(")
+    folders = Path(scenes.__file__).parent.glob("[a-z]*/")
+    assert {
+        folder.name
+        for folder in folders
+        if any(learns.search(path.read_text("utf-8")) for path in folder.glob("*.js"))
+    } - {"ui", "_bundles"} == set(CASES)
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_lost_worker_changes_no_number(open_scene, name):
     kind, options, learn, half = CASES[name]
     html = bare(kind, **options)
-    wanted = learn(Shown(open_scene(html).visit)).table()
+    wanted = told(learn(Shown(open_scene(html).visit)))
 
     for when in WHEN.values():
         losing = LOSING.format(when=when.format(half=half))
         tab = learn(Shown(open_scene(html, first=losing).visit))
         assert tab.page.evaluate("nLost") > 0
-        assert tab.table() == wanted
+        assert told(tab) == wanted
         assert tab.problems == []
