@@ -65,7 +65,7 @@ Code: MIT License.</p><nav><h2>Contents</h2>{"".join(contents)}</nav></header>
 
 
 def head(soups, html: Path) -> list[str]:
-    """Return the style sheets of the pages, and the script of the formulas."""
+    """Return the style sheets of the pages, and the scripts of the formulas."""
     found = {}
     for soup in soups:
         for tag in soup.select("head link[rel=stylesheet]"):
@@ -75,8 +75,9 @@ def head(soups, html: Path) -> list[str]:
             if "mathjax/" in tag.get("src", ""):
                 path = file(html, tag["src"])
                 found[path] = f'<script defer src="{path}"></script>\n'
-            elif (tag.string or "").startswith("window.MathJax"):
-                found["settings"] = f"<script>{tag.string}</script>\n"
+            elif "settings.js" in tag.get("src", ""):
+                path = file(html, tag["src"])
+                found[path] = f'<script src="{path}"></script>\n'
     return list(found.values())
 
 

@@ -6,6 +6,40 @@ addEventListener("DOMContentLoaded", () => {
   document.body.dataset.bsTarget = "#pst-page-toc-nav";
 });
 
+// What the theme writes into its pages, where a server may forbid scripts.
+addEventListener("DOMContentLoaded", () => {
+  for (const button of document.querySelectorAll("[data-clicked]")) {
+    button.addEventListener("click", () => globalThis[button.dataset.clicked]());
+  }
+});
+
+// What is late comes when the page was drawn once.
+addEventListener("DOMContentLoaded", () => requestAnimationFrame(() => setTimeout(load)));
+function load() {
+  for (const { src } of document.querySelectorAll("script[type='text/later']")) {
+    document.head.append(Object.assign(document.createElement("script"), { src }));
+  }
+}
+
+// Formulas are set a few at a time: between them the page answers its reader.
+const SLICE = 8; // milliseconds
+globalThis.MathJax = {
+  ...globalThis.MathJax,
+  startup: {
+    async pageReady() {
+      const waiting = [...document.querySelectorAll(".math")];
+      while (waiting.length) {
+        const end = performance.now() + SLICE;
+        while (waiting.length && performance.now() < end) {
+          MathJax.typeset(waiting.splice(0, 4));
+        }
+        await new Promise((resume) => setTimeout(resume));
+      }
+      return MathJax.typesetPromise(); // what stands elsewhere
+    },
+  },
+};
+
 // Paper is light, whatever the screen is.
 const page = document.documentElement.dataset;
 let theme;

@@ -123,6 +123,37 @@ def test_no_script_in_a_page_names_another_host(html):
             assert not re.search(r"['\"](?:https?:)?//", script.get_text()), path.name
 
 
+def test_all_scripts_of_a_page_are_files(html):
+    """A server may forbid others; data that a script reads are none."""
+    inside = [
+        (path.name, str(tag)[:200])
+        for path in html.glob("**/*.html")
+        for tag in soup(path).find_all(True)
+        if (tag.name == "script" and not tag.get("src") and "json" not in str(tag))
+        or any(name.startswith("on") for name in tag.attrs)
+    ]
+
+    assert inside == []
+
+
+def test_a_page_waits_for_few_scripts_and_styles(html):
+    for name in PAGES:
+        head = soup(html / f"{name}.html").head
+        scripts = [
+            tag["src"]
+            for tag in head.find_all("script", src=True)
+            if not {"defer", "async"} & set(tag.attrs) and not tag.get("type")
+        ]
+        styles = [tag["href"] for tag in head.find_all("link", rel="stylesheet")]
+        weight = [
+            sum((html / urlsplit(address).path).stat().st_size for address in found)
+            for found in (scripts, styles)
+        ]
+
+        assert 0 < weight[0] < 2_000, scripts
+        assert 0 < weight[1] < 250_000, styles
+
+
 def is_place(page, name):
     """Return whether a page has such an anchor, or a scene of which it is a moment."""
     moment = re.fullmatch(r"(\w+)\.\w+=.+", name)

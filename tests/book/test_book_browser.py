@@ -1,7 +1,5 @@
 """The built book in a browser, opened from files, with the network cut."""
 
-import re
-
 import pytest
 from legible import faults, pale
 from support import Visit, toc_pages
@@ -185,14 +183,3 @@ def test_a_word_that_was_searched_for_is_marked_to_the_end_of_a_page(visit, name
     page.locator("section#quiz .highlighted").first.wait_for(state="attached")
 
     assert tab.problems == []
-
-
-def test_no_page_waits_for_a_heavy_script(html):
-    blocking = re.compile(r'<script src="([^"?#]+)[^"]*"></script>')
-    for name in toc_pages():
-        head = (html / f"{name}.html").read_text(encoding="utf-8")
-        head = head.partition("</head>")[0]
-        sizes = {part: (html / part).stat().st_size for part in blocking.findall(head)}
-
-        assert sizes, "the theme has some"
-        assert sum(sizes.values()) < 100_000, sizes

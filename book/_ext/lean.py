@@ -1,0 +1,160 @@
+"""
+A Sphinx extension that makes the pages light, and lets them live under strict policies.
+
+Before it draws anything a page waits for its scripts and its styles.  Here the scripts
+come after the page, in their order; what the theme wrote into each page as a script
+goes to one file, for a server may forbid scripts in pages; and the styles lose the
+rules for what is in no page, which are three quarters of the theme's.
+"""
+
+import re
+from pathlib import Path
+
+SETTINGS = "_static/settings.js"
+# 1.5 MB of icons as a script: the style sheet has the same icons as a font.
+ICONS = re.compile(r'<script src="[^"]*/fontawesome\.js[^"]*"></script>')
+# Live code on a remote server, versions of a page, an index that folds: this book has
+# none; and the search has the focus without.
+UNUSED = ("thebe", "kernelName", "DOCUMENTATION_OPTIONS", "searchInput")
+LOADED = re.compile(r"<script (?![^>]*\b(?:defer|async)\b)([^>]*\bsrc=)")
+# A megabyte for formulas: `book.js` loads it when the page was drawn.
+LATE = re.compile(r'<script defer(?:="defer")? (src="[^"]*/mathjax/)')
+INLINE = re.compile(r"<script(?![^>]*\bsrc=)([^>]*)>(.*?)</script>", re.DOTALL)
+CLICKED = re.compile(r' onclick="(?:window\.)?(\w+)\(\)"')
+WORD = re.compile(r"[\w-]+")
+COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+CLASS = re.compile(r"\.(-?[a-zA-Z_][\w-]*)")
+# Where the page keeps the theme if it may keep nothing: in a frame, or in private.
+KEPT = """try {
+  localStorage.getItem("theme");
+} catch {
+  const kept = new Map();
+  const getItem = (name) => kept.get(name) ?? null;
+  const setItem = (name, value) => kept.set(name, `${value}`);
+  const localStorage = { getItem, setItem, removeItem: (name) => kept.delete(name) };
+  Object.defineProperty(window, "localStorage", { value: localStorage });
+}
+"""
+
+
+def lighten(app, exception):
+    """Rewrite the pages and the style sheets of the built book."""
+    if exception is not None or app.builder.format != "html":
+        return
+    out, settings = Path(app.outdir), [KEPT]
+    for page in sorted(out.glob("*.html")):
+        text = page.read_text(encoding="utf-8")
+        page.write_text(without_inline(text, settings), encoding="utf-8", newline="\n")
+    text = "".join(f"{body}\n" for body in settings)
+    Path(out, SETTINGS).write_text(text, encoding="utf-8", newline="\n")
+    for file in Path(out, "_static", "scripts").glob("fontawesome.js*"):
+        file.unlink()
+    known = set()
+    for path in [*out.glob("*.html"), *Path(out, "_static").glob("**/*.js")]:
+        if "mathjax" not in path.parts:
+            known.update(WORD.findall(path.read_text(encoding="utf-8")))
+    for path in Path(out, "_static").glob("**/*.css"):
+        text = path.read_text(encoding="utf-8")
+        path.write_text(needed(text, known), encoding="utf-8", newline="\n")
+
+
+def without_inline(page: str, settings: list[str]) -> str:
+    """
+    Return a page that loads all of its scripts from files, after it was read.
+
+    What stood in the page is added to the settings, unless it is there.
+
+    >>> settings = []
+    >>> page = '<head><script>let a = 1;</script><script src="b.js"></script></head>'
+    >>> print(without_inline(page, settings))
+    <head><script src="_static/settings.js"></script>
+    <script defer src="b.js"></script></head>
+    >>> settings
+    ['let a = 1;']
+    """
+
+    def take(found):
+        attributes, body = found[1], found[2].strip()
+        if "application/json" in attributes:
+            return found[0]
+        is_used = not any(name in attributes + body for name in UNUSED)
+        if is_used and body not in settings:
+            settings.append(body)
+        return ""
+
+    page = INLINE.sub(take, ICONS.sub("", page))
+    page = CLICKED.sub(r' data-clicked="\1"', LOADED.sub(r"<script defer \1", page))
+    page = LATE.sub(r'<script type="text/later" \1', page)
+    first = f'<script src="{SETTINGS}"></script>\n'
+    return re.sub(r"(?=<title>|<script )", lambda _: first, page, count=1)
+
+
+def needed(style: str, known: set[str]) -> str:
+    """
+    Return the rules of a style sheet that can hold in some page.
+
+    One is dropped if all its selectors ask for classes that are no word of any page or
+    script; a class is known, too, if a script makes it from a word that ends in "-".
+
+    >>> style = ".a .b, .c { x: 1 } @media print { .b { x: 2 } } p { x: 3 }"
+    >>> print(needed(style, {"c"}))
+    .a .b, .c { x: 1 } p { x: 3 }
+    >>> needed(".made-up { x: 1 }", {"made-"})
+    '.made-up { x: 1 }'
+    """
+    made = tuple(word for word in known if word.endswith("-") and len(word) > 3)
+
+    def can_hold(selector):
+        return all(c in known or c.startswith(made) for c in CLASS.findall(selector))
+
+    kept = []
+    for head, body in rules(COMMENT.sub("", style)):
+        words = head.strip()
+        if body is None or words.startswith(("@font-face", "@keyframes", "@page")):
+            kept.append(head + (body or ""))
+        elif words.startswith("@"):
+            inner = needed(body[1:-1], known)
+            kept += [head, "{", inner, "}"] if inner.strip() else []
+        elif any(can_hold(selector) for selector in selectors(words)):
+            kept.append(head + body)
+    return "".join(kept).strip()
+
+
+def rules(style: str):
+    """Yield a style sheet's rules, each what it is for and its block; None if none."""
+    begin = at = 0
+    while found := re.compile(r"[{;]").search(style, at):
+        # A semicolon, or a brace of an address, inside quotes or brackets.
+        head = style[begin : found.start()]
+        if head.count("(") > head.count(")") or head.count('"') % 2:
+            at = found.end()
+            continue
+        if found[0] == ";":
+            yield style[begin : found.end()], None
+            begin = at = found.end()
+            continue
+        depth, end = 1, found.end()
+        while depth and (brace := re.compile(r"\"[^\"]*\"|[{}]").search(style, end)):
+            depth += {"{": 1, "}": -1}.get(brace[0], 0)
+            end = brace.end()
+        yield head, style[found.start() : end]
+        begin = at = end
+    if style[begin:].strip():
+        yield style[begin:], None
+
+
+def selectors(head: str):
+    """Return the selectors of a rule, apart; commas in brackets do not part them."""
+    depth, parts = 0, [""]
+    for character in head:
+        depth += (character in "([") - (character in ")]")
+        if character == "," and not depth:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return parts
+
+
+def setup(app):
+    app.connect("build-finished", lighten, priority=900)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
