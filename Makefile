@@ -1,7 +1,8 @@
 # make book   build the book into build/_build/html
 # make test   check everything: style, package, notebooks, built pages
 # make test-core  check the method only, in half a minute
-# make test-browsers  compare all scenes in Chromium, Firefox and WebKitGTK
+# make test-browsers  compare all scenes in Chromium, Firefox and WebKitGTK,
+#   from a file and from a server
 # make lab    open the notebooks, with solutions, in JupyterLab
 # make lab-student  open the student edition there
 # make pdf    print the book to build/abstransfer.pdf; needs Chromium
@@ -80,7 +81,7 @@ test: .venv/.book system
 test-core: .venv/.book
 	$(PYTEST) -m "not slow" $(CORE)
 
-# `make test` does it too where both are installed (Debian: 110 MB).
+# `make test` does it too, from a file only, where both are installed (Debian: 110 MB).
 test-browsers: .venv/.book system
 	@if ! command -v firefox-esr >/dev/null || ! command -v WebKitWebDriver >/dev/null \
 	  || ! command -v Xvfb >/dev/null; then \
@@ -89,7 +90,7 @@ test-browsers: .venv/.book system
 	  $$as_root apt-get install -y -qq --no-install-recommends \
 	    firefox-esr webkit2gtk-driver xvfb; fi
 	$(BIN)/python abstransfer/scenes/bundle.py
-	$(BIN)/python -m pytest --quiet tests/scenes/test_engines.py
+	SERVED=1 $(BIN)/python -m pytest --quiet tests/scenes/test_engines.py
 
 # What is killed, filled up, interrupted or asked for at random; one after another,
 # for an interrupt is meant for one.

@@ -1,9 +1,17 @@
-"""All scenes in three browser engines: they live, and say the same to the digit."""
+"""
+All scenes in three browser engines: they live, and say the same to the digit.
+
+From a file; with SERVED in the environment, as in ``make test-browsers``, from a server
+too.
+"""
+
+import os
+from urllib.parse import quote
 
 import pytest
 from engines import ENGINES
 from scene_tab import PAGE, bare, scripts
-from support import PATIENCE
+from support import PATIENCE, served
 
 from abstransfer.scenes import KINDS
 from abstransfer.scenes import files as front
@@ -72,8 +80,11 @@ READ = """async ([pressed, closing]) => {
 pytestmark = pytest.mark.timeout(900)  # all that scenes compute, at once
 
 
-@pytest.fixture(scope="module")
-def address(tmp_path_factory):
+ORIGINS = ["file", "http"] if os.environ.get("SERVED") else ["file"]
+
+
+@pytest.fixture(scope="module", params=ORIGINS)
+def address(request, tmp_path_factory):
     """A page with all scenes."""
     body = "".join(bare(kind, **STATES.get(name, {})) for name, kind in KINDS.items())
     page = tmp_path_factory.mktemp("engines") / "all scenes, ünï #1 100%.html"
@@ -81,7 +92,11 @@ def address(tmp_path_factory):
         PAGE.format(style=front.style(), scripts=scripts(body), scene=body),
         encoding="utf-8",
     )
-    return page.as_uri()
+    if request.param == "file":
+        yield page.as_uri()
+    else:
+        with served(page.parent) as host:
+            yield f"{host}/{quote(page.name)}"
 
 
 @pytest.fixture(scope="module")
