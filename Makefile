@@ -10,7 +10,8 @@
 # make student  write the student edition, with blanks, into build/student
 # make zip    pack the built book and the student edition into build, with checksums
 # make nightly  the long forms of the tests that draw what happens, an hour; Run All of
-#   each page for students; whether all that is pinned can be had for each Python
+#   each page for students; a class of sixty; the graders' own tools; whether all that
+#   is pinned can be had for each Python
 # make bench  measure the learning loops beside other people's, and the pages
 # make clean  remove what these made
 #
@@ -100,9 +101,14 @@ nightly: .venv/.book system
 	  tests/scenes/test_addresses.py
 	EVERY_PAGE=1 $(BIN)/python -m pytest --quiet -k run_all \
 	  tests/book/test_student_edition.py
+	$(BIN)/python scripts/class_trial.py build/trial
+	$(PYTHON) -m venv .venv/graders
+	.venv/graders/bin/python -m pip install --quiet -c constraints.txt -e ".[book,grading]"
+	GRADERS=$(HERE)/.venv/graders/bin $(BIN)/python -m pytest --quiet \
+	  tests/classroom/test_graders.py
 	$(PIP) uv
 	for version in $(PYTHONS); do \
-	  $(BIN)/uv pip compile pyproject.toml --extra test --extra lab -c constraints.txt \
+	  $(BIN)/uv pip compile pyproject.toml --extra test --extra lab --extra grading -c constraints.txt \
 	    --python-version $$version --only-binary :all: --quiet > /dev/null || exit 1; \
 	done
 
