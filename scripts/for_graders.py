@@ -134,14 +134,15 @@ def for_otter(parts) -> Iterator:
         yield new_raw_cell(f"# BEGIN QUESTION\nname: {part.name}\npoints: 1{manual}")
         if manual:
             yield new_markdown_cell(f"*{part.text}*")
-        shown = [new_code_cell(blank.text) for blank in blanks]
-        hidden = [new_code_cell(blank.answer) for blank in blanks]
-        if manual:
-            shown.append(new_markdown_cell("Your answer here."))
-            hidden.append(new_markdown_cell(part.answer))
-        if shown:
-            yield from _block("PROMPT", shown)
-            yield from _block("SOLUTION", hidden)
+        mark = "# BEGIN SOLUTION NO PROMPT\n{}\n# END SOLUTION"  # the dots are there
+        solved = [
+            new_code_cell(f"{blank.text}\n{mark.format(blank.answer)}")
+            for blank in blanks
+        ]
+        if manual:  # Otter puts a cell for words in its place
+            solved.append(new_markdown_cell(part.answer))
+        if solved:
+            yield from _block("SOLUTION", solved)
         if not manual:
             test = new_code_cell(f"bool({part.text})")
             test.outputs = [new_output("execute_result", {"text/plain": "True"})]

@@ -111,6 +111,16 @@ def solved(notebook, *, last="-(1 - 0.99**8) / (1 - 0.99)"):
     return notebook
 
 
+def nothing_is_told(page, handed_out):
+    """No code that answers stands in a notebook for students."""
+    code = nbformat.read(handed_out, as_version=4).cells
+    told = "\n".join(cell.source for cell in code)
+    for part in parts_of(nbformat.read(page, as_version=4), COURSE):
+        if part.kind == "blank":
+            assert part.answer not in told, part.name
+            assert part.text in told, part.name
+
+
 @tried
 def test_nbgrader_hands_out_and_marks_what_it_is_given(tmp_path):
     assert for_graders.main(["nbgrader", str(tmp_path)]) == 0
@@ -118,9 +128,9 @@ def test_nbgrader_hands_out_and_marks_what_it_is_given(tmp_path):
     assert "Success" in call(tmp_path, "nbgrader", "validate", source)
     for path in PAGES:
         call(tmp_path, "nbgrader", "generate_assignment", "--create", path.stem)
+        nothing_is_told(path, tmp_path / "release" / path.stem / path.name)
     released = tmp_path / "release" / PAGE / f"{PAGE}.ipynb"
     handed_out = nbformat.read(released, as_version=4)
-    assert "0.99**8" not in nbformat.writes(handed_out)
     for name, notebook in (
         ("empty", handed_out),
         ("right", solved(handed_out)),
@@ -143,18 +153,20 @@ def test_nbgrader_hands_out_and_marks_what_it_is_given(tmp_path):
 @tried
 def test_otter_assigns_and_marks_what_it_is_given(tmp_path):
     assert for_graders.main(["otter", str(tmp_path)]) == 0
-    said = call(tmp_path, "otter", "assign", "-v", f"{PAGE}.ipynb", "dist")
+    said = call(tmp_path, "otter", "assign", "-v", f"{PAGE}.ipynb", "tried")
     assert "All autograder tests passed" in said
     for path in PAGES:
-        words = (f"{path.stem}.ipynb", "dist", "--no-run-tests")
+        words = (path.name, path.stem, "--no-run-tests")
         call(tmp_path, "otter", "assign", *words)
-    student = tmp_path / "dist" / "student" / f"{PAGE}.ipynb"
+        nothing_is_told(path, tmp_path / path.stem / "student" / path.name)
+    student = tmp_path / PAGE / "student" / f"{PAGE}.ipynb"
     handed_out = nbformat.read(student, as_version=4)
-    assert "0.99**8" not in nbformat.writes(handed_out)
-    [autograder] = (tmp_path / "dist" / "autograder").glob(f"{PAGE}*.zip")
+    [autograder] = (tmp_path / PAGE / "autograder").glob("*.zip")
+    folder = tmp_path / "handed_in"  # with the name that it was handed out with
+    folder.mkdir()
     for notebook, right in ((handed_out, 0), (solved(handed_out, last="-8"), 2)):
-        nbformat.write(notebook, tmp_path / "handed_in.ipynb")
-        call(tmp_path, "otter", "run", "-a", autograder, "handed_in.ipynb")
+        nbformat.write(notebook, folder / student.name)
+        call(tmp_path, "otter", "run", "-a", autograder, folder / student.name)
 
         found = json.loads((tmp_path / "results.json").read_text("utf-8"))
         marks = [t["score"] for t in found["tests"] if t["name"].startswith("ex-2-")]
