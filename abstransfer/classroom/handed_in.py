@@ -130,7 +130,16 @@ def cards_said(texts: list[str]) -> str:
     words = []
     for text in dict.fromkeys(text for text in texts if TITLE in text):
         try:
-            words += ["confirmed" for _ in verify(text)]
+            words += [_confirmed(found) for found in verify(text)]
         except ValueError as error:
             words.append(str(error))
     return "; ".join(words)
+
+
+def _confirmed(found) -> str:
+    """Return what a card comes to that was run again, with what was predicted on it."""
+    bet = found.prediction
+    if not (bet and bet.robot):
+        return "confirmed"
+    came = bet.compare(found.race.goals)
+    return f"confirmed, race {bet.race}, predicted {bet.robot} {bet.direction}: {came}"

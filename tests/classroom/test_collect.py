@@ -7,10 +7,12 @@ import pytest
 from nbformat import write
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
+from abstransfer import parse_map
 from abstransfer.classroom import collecting
 from abstransfer.classroom.collecting import collect
 from abstransfer.classroom.handed_in import (
     asked_in,
+    cards_said,
     digest,
     predictions_said,
     replies_in,
@@ -18,7 +20,11 @@ from abstransfer.classroom.handed_in import (
     texts_of,
 )
 from abstransfer.exercises import Prediction, check
+from abstransfer.project.card import card_text
+from abstransfer.project.prediction import Prediction as Bet
+from abstransfer.project.setup import Setup, run
 
+SMALL = parse_map("+---+---+\n|. .d*  |\n+---+---+")
 IMPORT = "from abstransfer.exercises import check"
 
 
@@ -124,6 +130,17 @@ def test_a_prediction_that_was_changed_after_the_run_is_told():
     )
     assert predictions_said([before], []) == (
         f"ex-10-1 {bet.seal}, direction +, at least 0.05, not made again"
+    )
+
+
+def test_a_card_tells_what_was_predicted_on_it():
+    setup = Setup(SMALL, guides=("eager", "rand"), runs=1, student="Ann")
+    goals = run(setup).goals
+    bet = Bet(2, "rand", "+", 5)
+
+    assert cards_said([card_text(setup, goals)]) == "confirmed"
+    assert cards_said([card_text(setup, goals, prediction=bet)]) == (
+        f"confirmed, race 2, predicted rand +: {bet.compare(goals)}"
     )
 
 
