@@ -26,6 +26,7 @@ ROLE = re.compile(r"\{([\w:-]+)\}`([^`<]*?)(?: *<([^`>]*)>)?`")
 LABEL = re.compile(r"^\([\w-]+\)=\n", re.MULTILINE)
 MOMENT = re.compile(r'<a [^>]*href="#[^>]*>(.*?)</a>', re.DOTALL)
 ALONE = re.compile(r"^\$\$(.+)\$\$$", re.MULTILINE)
+LETTER = re.compile(r"\$(\w)\$")  # in HTML not every viewer looks for formulas
 NUMBERED = re.compile(r"\{math\}\n:label: *(\S+)")
 
 
@@ -97,7 +98,8 @@ def _box(found: re.Match, course: Course) -> str:
         return ""
     body = plain(body, course)
     if name == "dropdown" or options.get("name", "").startswith("reply-"):
-        head = f"<summary>{html.escape(title, quote=False)}</summary>"
+        title = LETTER.sub(r"<i>\1</i>", html.escape(title, quote=False))
+        head = f"<summary>{title}</summary>"
         return f"<details>\n{head}\n\n{body}\n\n</details>"
     if name in ("admonition", "prf:algorithm"):
         head = f"Algorithm {title}" if name != "admonition" else title

@@ -156,6 +156,8 @@ def test_what_would_tell_or_fail_is_left_out(code, expected):
          "> **Bet**\n>\n> Who?\n>\n> * I"),
         ("```{admonition} The bet: who\n:name: reply-0-a\n\n**I.**\n```",
          "<details>\n<summary>The bet: who</summary>\n\n**I.**\n\n</details>"),
+        ("```{dropdown} Its $Q$ < 1\nNo.\n```",
+         "<details>\n<summary>Its <i>Q</i> &lt; 1</summary>\n\nNo.\n\n</details>"),
         ("````{admonition} For the lecturer\n:class: note, dropdown\n42\n````", ""),
         ("```{exercise-start}\n:label: ex-3-1\n```\nWhat?\n```{exercise-end}\n```",
          "### Exercise 3.1\nWhat?"),
@@ -235,6 +237,7 @@ def test_the_student_edition_of_a_page_is_plain_markdown(edition):
     for line in re.findall(r"^.*\$\$.*$", text, re.M):
         assert line == "$$", "an equation stands alone, in no box"
     assert text.count("$$") % 2 == 0
+    assert not [x for x in re.findall("<summary>(.*)</summary>", text) if "$" in x]
 
 
 def test_links_of_the_student_edition_lead_to_its_pages(edition):
