@@ -258,6 +258,8 @@ def test_a_name_gives_a_seed_and_a_building_of_ones_own(open_scene):
     mine = tab.root.get_by_role("button", name="My building")
     assert mine.get_attribute("aria-disabled") == "true"
     tab.root.get_by_label("Your name").fill("  Zoë  Ångström ")
+    tab.page.evaluate("dispatchEvent(new Event('hashchange'))")  # all is drawn anew
+    tab.settle()
     tab.press("Tab")
     assert f"Seed {seed_of('Zoë Ångström')}" in tab.root.inner_text()
     mine.click()

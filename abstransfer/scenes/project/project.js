@@ -14,7 +14,7 @@ import { sight } from "../ui/sights.js";
 import { keep, kept, onReplaced, pageHere } from "../ui/kept.js";
 import { sum } from "../parts/runs.js";
 import * as rules from "./race.js";
-import { compare, lineOf, predicting } from "./sealed.js";
+import { compare, lineOf, predicting, tied } from "./sealed.js";
 import { buildingOf, seedOf, written } from "./whose.js";
 
 const FROM = {
@@ -68,13 +68,8 @@ defineScene("project", {
 
     const student = () => written(state.student);
     const seed = () => (student() ? seedOf(student()) : rules.SEED);
-    const whose = make("input", {
-      type: "text",
-      maxlength: 60,
-      placeholder: "Ann Lee",
-      onchange: () => scene.set({ student: whose.value }),
-    });
-    scene.control("student", (value) => (whose.value = value));
+    const field = { type: "text", maxlength: 60, placeholder: "Ann Lee" };
+    const whose = tied(scene, "student", make("input", field));
     const mine = button("My building", () => scene.set({ text: buildingOf(student()) }));
     const seeded = make("span", {});
     const showSeed = (text) => seeded.textContent === text || (seeded.textContent = text);

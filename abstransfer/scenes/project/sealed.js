@@ -39,6 +39,16 @@ export function compare({ predicted, direction, percent }, goals) {
   return `${gainText(mine, none)}, ${size >= least ? "as predicted" : "refuted"}`;
 }
 
+// Tie a field to a value of the state; who writes in it is not disturbed by a redraw.
+export function tied(scene, name, node) {
+  node.addEventListener("change", () => {
+    scene.set({ [name]: node.value });
+    node.value = scene.state[name]; // what is no value goes
+  });
+  scene.control(name, (value) => document.activeElement === node || (node.value = value));
+  return node;
+}
+
 /**
  * The fields: { node, close(is, words) }; `names` are the robots, by their names in the
  * state.
@@ -47,16 +57,9 @@ export function compare({ predicted, direction, percent }, goals) {
  * @param {Record<string, string>} names
  */
 export function predicting(scene, names) {
-  const tied = (name, node) => {
-    node.addEventListener("change", () => {
-      scene.set({ [name]: node.value });
-      scene.redraw(); // what is no value goes
-    });
-    scene.control(name, (value) => (node.value = value));
-    return node;
-  };
   const select = (name, label, options) =>
     tied(
+      scene,
       name,
       make(
         "select",
@@ -68,7 +71,7 @@ export function predicting(scene, names) {
   const parts = [
     select("predicted", "Robot", { "": "no prediction", ...names }),
     select("direction", "Compared with none", DIRECTIONS),
-    tied("percent", make("input", share)),
+    tied(scene, "percent", make("input", share)),
   ];
   const side = make("span", {});
   const words = make("p", {});
