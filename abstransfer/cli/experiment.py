@@ -24,6 +24,7 @@ DESCRIPTION = (
     "Run the nine arms of Figures 3 and 4. Results go to a folder; the same command "
     "again resumes an interrupted experiment."
 )
+STUDIES = ("blind", "whisper", "teacher")
 KEPT = "what is done is kept in {}; the same command goes on from there"
 
 
@@ -48,6 +49,13 @@ def add_options(parser) -> None:
         "is done in the target, in that building"
     )
     what.add_argument("--everything", action="store_true", help=text)
+    text = (
+        "one of the blind studies: the claims in 24 drawn buildings, whispered advice, "
+        "the best teacher; prints its verdicts"
+    )
+    what.add_argument("--study", choices=STUDIES, help=text)
+    text = "of a study, the first so many of its drawn buildings (all)"
+    add_option(parser, "buildings", None, text)
 
 
 def run(arguments) -> int:
@@ -57,10 +65,17 @@ def run(arguments) -> int:
         Experiment,
         in_place_of_target,
         reproduce,
+        study,
     )
 
     experiments = EXPERIMENTS
-    if not arguments.everything:
+    if arguments.study:
+        if (arguments.reward, arguments.target) != ("goal", "target") or arguments.runs:
+            raise ValueError("--study has its own --reward, --target and --runs")
+        experiments = study(arguments.study, arguments.buildings)
+    elif arguments.buildings is not None:
+        raise ValueError("--buildings needs a --study")
+    elif not arguments.everything:
         grid, tuned = arguments.tau_grid, arguments.tuned
         one = Experiment(
             folder=".",
@@ -95,6 +110,8 @@ def run(arguments) -> int:
     finally:
         bars.close()
     print(_summary(arguments.out))
+    if arguments.study:
+        print(_verdicts(arguments.study, arguments.out))
     return 0
 
 
@@ -111,6 +128,20 @@ def _summary(out: str) -> str:
             f"{seconds['cores']} s of one core, {seconds['ns_per_step']} ns a step"
         )
     return "\n".join(lines)
+
+
+def _verdicts(name: str, out: str) -> str:
+    """Return one line for each hypothesis of a study that its folders can judge."""
+    from ..experiments.results import load_results
+    from ..reproduction.blind_rules import OF_STUDY, as_predicted, judge_blind
+
+    def read(folder):
+        return load_results(os.path.join(out, folder))
+
+    return "\n".join(
+        f"{key}: {found.verdict}, {'' if as_predicted(found) else 'not '}as predicted"
+        for key, found in judge_blind(OF_STUDY[name], read).items()
+    )
 
 
 class _Bars:

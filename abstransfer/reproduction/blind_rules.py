@@ -63,14 +63,14 @@ def _claim(claim: Claim) -> Callable[[Read], Iterable[Part]]:
 
 
 def _finding(results: Results, finding: Finding) -> Part:
-    a, b = _effect_of(results, finding)
+    a, b = compared(results, finding)
     side = "low" if finding.above else "high"
     if finding.kind == "driving":
         return of_mean(WHERE, finding.text, a - b, "reward", **{side: 0})
     return _over(finding.text, a, b, **{side: finding.threshold})
 
 
-def _effect_of(results: Results, finding: Finding) -> tuple[np.ndarray, np.ndarray]:
+def compared(results: Results, finding: Finding) -> tuple[np.ndarray, np.ndarray]:
     """Return what a finding compares, in each building: two arrays (buildings,)."""
     if finding.kind == "driving":
         value = results.record["value"]
@@ -82,7 +82,7 @@ def holding(results: Results, claim: Claim) -> np.ndarray:
     """Return whether all findings of a claim are as it says in a building, (B,)."""
     held = []
     for finding in claim.findings:
-        a, b = _effect_of(results, finding)
+        a, b = compared(results, finding)
         beyond = a - b if finding.kind == "driving" else a / b - 1 - finding.threshold
         held.append(beyond > 0 if finding.above else beyond < 0)
     return np.all(held, axis=0)
@@ -309,6 +309,13 @@ RULES: dict[str, Callable[[Read], Iterable[Part]]] = {
     ),
     "M5": _grows,
     "M6": _whisper_and_teacher,
+}
+
+#: What the folders of a study can judge; M6 needs those of two.
+OF_STUDY = {
+    "blind": tuple(key for key in RULES if key[0] in "PXY"),
+    "whisper": tuple(key for key in RULES if key[0] == "W"),
+    "teacher": tuple(key for key in RULES if key[0] == "M" and key != "M6"),
 }
 
 

@@ -21,6 +21,7 @@ from pathlib import Path
 from ..experiments.arms import ARMS, STRATEGIES, TAUS, Arm, tau_cells
 from ..experiments.problem import Problem
 from ..experiments.results import Results
+from ..learning.settings import whole
 from .blind import BLIND, TEACHER, WHISPER
 from .folders import Experiment, Operated, Searched, Survey
 from .guides import ADVICE, TAU, TINY
@@ -159,6 +160,8 @@ def study(
     """
     if name not in STUDIES:
         raise ValueError(f"study must be one of {', '.join(STUDIES)}, got {name!r}")
+    if n_buildings is not None:
+        n_buildings = whole("n_buildings", n_buildings, 1)
     return tuple(
         one._replace(n_runs=min(one.n_runs, n_buildings or one.n_runs))
         if isinstance(one, Operated)

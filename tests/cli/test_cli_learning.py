@@ -16,6 +16,8 @@ from support import PATIENCE
 
 from abstransfer.cli import main
 from abstransfer.experiments.results import load_results
+from abstransfer.reproduction import blind_rules, catalogue
+from abstransfer.reproduction.folders import Survey
 
 LEARN = ["learn", "--map", "source", "--steps", "1_500_000", "--window", "5e5"]
 PAGE = ["experiment", "--scale", "page", "--jobs", "2", "--target", "source"]
@@ -170,6 +172,15 @@ def test_tau_is_the_papers_shrunk_to_the_steps(capsys):
             ["experiment", "--out", "x", "--everything", "--reward", "cost"],
             "--everything has its own",
         ),
+        (
+            ["experiment", "--out", "x", "--study", "blind", "--runs", "9"],
+            "--study has its own --reward, --target and --runs",
+        ),
+        (["experiment", "--out", "x", "--buildings", "8"], "--buildings needs a"),
+        (
+            ["experiment", "--out", "x", "--study", "blind", "--buildings", "0"],
+            "n_buildings must be a whole number",
+        ),
         (["experiment", "--out", "map.txt/x"], "Not a directory"),
         (["experiment", "--out", "x", "--runs", "1e9"], "at most 10,000,000"),
         (["experiment", "--out", "x", "--jobs", "1e6"], "n_workers must be a whole"),
@@ -212,6 +223,26 @@ def test_a_bad_command_line_ends_with_code_2(arguments, message, capsys):
 
     assert ended.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_study_prints_its_verdicts_and_whether_they_were_predicted(
+    capsys, tmp_path, monkeypatch
+):
+    few = tuple(
+        one._replace(given=one.given[::5])
+        for one in catalogue.TEACHER
+        if isinstance(one, Survey) and "teacher-" in one.folder and len(one.seeds) == 8
+    )
+    monkeypatch.setitem(catalogue.STUDIES, "teacher", few)
+    monkeypatch.setitem(blind_rules.OF_STUDY, "teacher", ("M5",))
+    options = ["--study", "teacher", "--buildings", "2", "--scale", "page"]
+    code, out, _ = run(
+        capsys, "experiment", *options, "--jobs", "1", "--out", str(tmp_path)
+    )
+
+    assert code == 0
+    assert "teacher-large: 2 arms x 6 runs, " in out
+    assert out.splitlines()[-1] == "M5: undecided, not as predicted"  # of two buildings
 
 
 @pytest.fixture(scope="module")

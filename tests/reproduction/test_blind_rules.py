@@ -5,6 +5,7 @@ import pytest
 
 from abstransfer.experiments.arms import Arm
 from abstransfer.experiments.results import Results
+from abstransfer.reproduction import blind_tables
 from abstransfer.reproduction.blind import (
     BLIND,
     READINGS,
@@ -262,3 +263,28 @@ def test_the_arms_that_rules_speak_of_are_run():
 def test_an_unknown_hypothesis_is_refused():
     with pytest.raises(ValueError, match=r"keys must be among P1, .* got 'Z1'"):
         judge_blind(["Z1"])
+
+
+def test_the_weakest_finding_is_measured_from_its_threshold():
+    """Claim 1: ND soft over Prob soft, 480 to 390; claim 4: Prob soft, 390 to 400."""
+    results = made_up(GOALS, value=value())
+
+    for claim, beyond in (
+        (CLAIMS[0], 450 / 400 - 1),
+        (CLAIMS[3], 0.01 + 1 - 390 / 400),
+    ):
+        np.testing.assert_allclose(blind_tables.weakest(results, claim), beyond)
+
+
+def test_tables_say_gains_over_buildings_with_sizes():
+    results = made_up({"nd-hard": 500, "values": 550})
+    results.record["parameters"]["arms"] = [
+        {"name": "nd-hard", "guide": "beta-0"},
+        {"name": "values", "table": "values", "size": 1e-9},
+    ]
+    rows = blind_tables.whispers_table(["labels"], lambda folder: results)
+
+    assert rows[1] == {
+        "whispered": "values",
+        "labels": "1 (x 1e-09): +10.0 % [+10.0, +10.0]",
+    }
