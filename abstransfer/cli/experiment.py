@@ -24,7 +24,7 @@ DESCRIPTION = (
     "Run the nine arms of Figures 3 and 4. Results go to a folder; the same command "
     "again resumes an interrupted experiment."
 )
-STUDIES = ("blind", "whisper", "teacher")
+STUDIES = ("blind", "whisper", "teacher", "neighbours")
 KEPT = "what is done is kept in {}; the same command goes on from there"
 
 
@@ -50,8 +50,8 @@ def add_options(parser) -> None:
     )
     what.add_argument("--everything", action="store_true", help=text)
     text = (
-        "one of the blind studies: the claims in 24 drawn buildings, whispered advice, "
-        "the best teacher; prints its verdicts"
+        "one study alone: the claims in 24 drawn buildings, whispered advice, the best "
+        "teacher, other methods on one ladder; prints its verdicts"
     )
     what.add_argument("--study", choices=STUDIES, help=text)
     text = "of a study, the first so many of its drawn buildings (all)"
@@ -133,14 +133,19 @@ def _summary(out: str) -> str:
 def _verdicts(name: str, out: str) -> str:
     """Return one line for each hypothesis of a study that its folders can judge."""
     from ..experiments.results import load_results
+    from ..reproduction.bench_rules import judge_bench
     from ..reproduction.blind_rules import OF_STUDY, as_predicted, judge_blind
 
     def read(folder):
         return load_results(os.path.join(out, folder))
 
+    if name == "neighbours":
+        judged = judge_bench(read=read)
+    else:
+        judged = judge_blind(OF_STUDY[name], read)
     return "\n".join(
         f"{key}: {found.verdict}, {'' if as_predicted(found) else 'not '}as predicted"
-        for key, found in judge_blind(OF_STUDY[name], read).items()
+        for key, found in judged.items()
     )
 
 

@@ -291,6 +291,7 @@ class Rung(NamedTuple):
     says: str  #: what it does
     source: str  #: author and year
     setting: str  #: that tuning chose, in words
+    at_edge: bool  #: whether it ends the row of those tried: a better may lie beyond
     goals: Interval  #: of a whole run
     shortfall: Interval  #: share of the ceiling's goals that it misses; below 0: none
     over_nd: Interval  #: gain over ND hard, run by run
@@ -322,6 +323,7 @@ def ladder(
             NAMES[name].says,
             NAMES[name].source,
             told(name, settings[name]["setting"]),
+            at_edge(name, settings[name]["setting"]),
             t_interval(found),
             t_interval(1 - found / best),
             gain_interval(found, nd),
@@ -345,13 +347,31 @@ def told(name: str, setting) -> str:
     return f"{NAMES[name].about} = {setting_text(setting).replace(' ', ', ')}"
 
 
+def at_edge(name: str, setting) -> bool:
+    """
+    Return whether a setting is the least or the largest that was tried.
+
+    In any of its numbers, where three or more were tried.
+
+    >>> at_edge("nd-hard", 3_500_000), at_edge("library", (0.98, 0.05))
+    (False, True)
+    """
+    if setting is None:
+        return False
+    rows = np.atleast_2d(np.array(NAMES[name].settings, dtype=float).T)
+    return any(
+        len(set(row)) > 2 and x in (row.min(), row.max())
+        for row, x in zip(rows, np.atleast_1d(setting), strict=True)
+    )
+
+
 def ladder_table(rungs: Iterable[Rung]) -> list[dict]:
     """Return a row for each rung, for ``tables.to_markdown``."""
     return [
         {
             "method": rung.name,
             "source": rung.source,
-            "setting": rung.setting,
+            "setting": rung.setting + (" (edge)" if rung.at_edge else ""),
             "goals, thousands": _text(rung.goals, 1e-3, 1),
             "short of the ceiling, %": _text(rung.shortfall, 100, 1),
             "over ND hard, %": _text(rung.over_nd, 100, 1, "+"),

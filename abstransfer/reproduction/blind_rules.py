@@ -7,6 +7,7 @@ over buildings: of the log of a ratio of goals, or of a difference of goals.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
@@ -350,4 +351,4 @@ def judge_blind(
 
 def as_predicted(found: Judged) -> bool:
     """Return whether a verdict is the one that was predicted."""
-    return predictions()[found.key].predicted.split(":")[0] == found.verdict
+    return re.split("[:;]", predictions()[found.key].predicted)[0] == found.verdict

@@ -11,6 +11,9 @@ For page 10: robots with the guides of :mod:`.guides`, at the same tau in a
 strategy but for `study-own`; and operations on notes, in the four buildings and
 in drawn ones.  What is predicted of the second edition stands in
 ``data/hypotheses.md``, committed before its results.
+
+For page "Neighbours": other methods of transfer, tuned by one budget; see
+:mod:`.bench`, and ``data/hypotheses-bench.md``.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ from ..experiments.arms import ARMS, STRATEGIES, TAUS, Arm, tau_cells
 from ..experiments.problem import Problem
 from ..experiments.results import Results
 from ..learning.settings import whole
+from .bench import NEIGHBOURS, Bench
 from .blind import BLIND, TEACHER, WHISPER
 from .folders import Experiment, Operated, Searched, Survey
 from .guides import ADVICE, TAU, TINY
@@ -144,14 +148,18 @@ _SECOND_EDITION = (
     *(Operated(f"operations-{target}", 6, target) for target in TARGETS),
     Operated("drawn", 20, None),
 )
-EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION
+EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION + NEIGHBOURS
 #: What one command repeats alone.
-STUDIES = {"blind": BLIND, "whisper": WHISPER, "teacher": TEACHER}
+STUDIES = {
+    "blind": BLIND,
+    "whisper": WHISPER,
+    "teacher": TEACHER,
+    "neighbours": NEIGHBOURS,
+}
+Entry = Experiment | Operated | Survey | Searched | Bench
 
 
-def study(
-    name: str, n_buildings: int | None = None
-) -> tuple[Survey | Searched | Operated, ...]:
+def study(name: str, n_buildings: int | None = None) -> tuple[Entry, ...]:
     """
     Return the experiments of a study; with fewer than its drawn buildings, on demand.
 
@@ -164,7 +172,7 @@ def study(
         n_buildings = whole("n_buildings", n_buildings, 1)
     return tuple(
         one._replace(n_runs=min(one.n_runs, n_buildings or one.n_runs))
-        if isinstance(one, Operated)
+        if isinstance(one, Operated | Bench) and not one.target
         else one._replace(seeds=one.seeds[:n_buildings])
         if isinstance(one, Survey)
         else one
@@ -172,7 +180,7 @@ def study(
     )
 
 
-def in_place_of_target(target: str) -> tuple[Experiment | Operated, ...]:
+def in_place_of_target(target: str) -> tuple[Entry, ...]:
     """
     Return what the book does in its target, to be done in another building.
 
@@ -191,9 +199,9 @@ def in_place_of_target(target: str) -> tuple[Experiment | Operated, ...]:
 def reproduce(
     out: str | Path,
     *,
-    experiments: Iterable[Experiment] = EXPERIMENTS,
+    experiments: Iterable[Entry] = EXPERIMENTS,
     problem: Problem | None = None,
-    on_start: Callable[[Experiment | Operated], Callable | None] = lambda _: None,
+    on_start: Callable[[Entry], Callable | None] = lambda _: None,
     **options,
 ) -> dict[str, Results]:
     """
@@ -202,8 +210,8 @@ def reproduce(
     Parameters
     ----------
     out : path
-    experiments : iterable of Experiment or Operated
-        By default all that the book shows; the whole takes some 70 minutes of one
+    experiments : iterable of what the catalogue holds
+        By default all that the book shows; the whole takes some 94 minutes of one
         core, as the stored records say, half of it on two.
     problem : Problem, optional
         What is not the book's; reward and target are those of the experiment.

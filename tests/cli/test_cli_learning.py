@@ -215,6 +215,7 @@ def test_bad_input_ends_with_a_message_and_code_2(
             ["experiment", "--out", "x", "--tau-grid", "--everything"],
             "not allowed with",
         ),
+        (["experiment", "--out", "x", "--study", "all"], "invalid choice: 'all'"),
     ],
 )
 def test_a_bad_command_line_ends_with_code_2(arguments, message, capsys):

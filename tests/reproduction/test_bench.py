@@ -8,7 +8,7 @@ import pytest
 from abstransfer.experiments.arms import Arm, Scale
 from abstransfer.experiments.plan import SEED, STREAMS
 from abstransfer.experiments.problem import Problem
-from abstransfer.experiments.results import Results, load_results
+from abstransfer.experiments.results import Results, load_results, read_results
 from abstransfer.learning import q_learning
 from abstransfer.maps import read_map
 from abstransfer.reproduction.bench import (
@@ -183,3 +183,10 @@ def test_a_hypothesis_holds_where_the_whole_interval_lies_on_its_side():
     for goals, verdict in ways.items():
         found = results(heuristic=goals, nd_hard=(30, 30, 30, 30, 30))
         assert judge_bench(["R5"], lambda _, r=found: r)["R5"].verdict == verdict
+
+
+def test_no_hypothesis_is_left_without_a_verdict():
+    judged = judge_bench(read=read_results)
+
+    assert judged.keys() == RULES.keys()
+    assert [len(judged[key].parts) for key in ("R1", "R2", "R8")] == [3, 22, 7]

@@ -17,6 +17,7 @@ from abstransfer.reproduction.catalogue import (
     in_place_of_target,
     reproduce,
 )
+from abstransfer.reproduction.catalogue import study as experiments_of
 from abstransfer.reproduction.figures import make_figures
 from abstransfer.reproduction.folders import Experiment
 from abstransfer.reproduction.guides import ADVICE, TAU, make_guides
@@ -161,6 +162,16 @@ def test_the_stored_results_are_those_of_the_catalogue(experiment):
     found = reproduce(DATA / "results", experiments=[experiment], executor=NoExecutor())
 
     assert found.keys() == {experiment.folder}
+
+
+def test_a_study_can_be_had_with_fewer_of_its_drawn_buildings():
+    assert [one.n_runs for one in experiments_of("neighbours")] == [2, 5, 24]
+    assert [one.n_runs for one in experiments_of("neighbours", 3)] == [2, 5, 3]
+    assert [one.n_runs for one in experiments_of("neighbours", 99)] == [2, 5, 24]
+    with pytest.raises(ValueError, match="study must be one of .* got 'none'"):
+        experiments_of("none")
+    with pytest.raises(ValueError, match="n_buildings must be a whole number from 1"):
+        experiments_of("neighbours", 0)
 
 
 def test_runs_of_page_10_are_paired_with_those_of_the_figures():

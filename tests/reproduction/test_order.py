@@ -24,7 +24,7 @@ BLIND = [
     one.folder
     for experiments in STUDIES.values()
     for one in experiments
-    if one.folder in stored_results()
+    if one.folder in stored_results() and one not in NEIGHBOURS
 ]
 
 

@@ -10,17 +10,18 @@ from abstransfer._paths import DATA
 from abstransfer.cli import cost
 from abstransfer.experiments.arms import Scale
 from abstransfer.experiments.plan import SEED, STREAMS
-from abstransfer.experiments.problem import GUIDES, build_guides
+from abstransfer.experiments.problem import GUIDES, Problem, build_guides
 from abstransfer.experiments.results import read_results
 from abstransfer.experiments.workers import Job, run_job
 from abstransfer.reproduction import catalogue
+from abstransfer.reproduction.bench import TARGET, TUNING, Case, chosen, do_case
 from abstransfer.reproduction.catalogue import EXPERIMENTS
-from abstransfer.reproduction.folders import Operated
+from abstransfer.reproduction.folders import Experiment
 from abstransfer.reproduction.guides import make_guides
 from abstransfer.reproduction.interventions import run_operations
 from abstransfer.reproduction.operations import OPERATIONS
 
-RUN = [one for one in EXPERIMENTS if not isinstance(one, Operated)]
+RUN = [one for one in EXPERIMENTS if isinstance(one, Experiment)]
 BEGINNING = Scale(5_000_000, 500_000)  # of a run, beyond most tau: ten windows
 
 
@@ -72,6 +73,19 @@ def test_a_stored_operation_comes_out_again(folder, name):
     assert found.totals(name)[0] == stored.totals(name)[0]
     assert found.record["noted"][name][0] == stored.record["noted"][name][0]
     assert name in OPERATIONS
+
+
+@pytest.mark.parametrize("name", ["whisper", "library", "q-lambda", "replay"])
+def test_the_beginning_of_a_stored_run_of_the_bench_comes_out_again(name):
+    """Of methods that do not ask how long a run is."""
+    stored = read_results(TARGET)
+    tried = chosen(read_results(TUNING))[name]
+    last = stored.goals.shape[1] - 1
+    seed = np.random.SeedSequence(SEED, spawn_key=(STREAMS["report"], last))
+    goals, _ = do_case(Case(Problem(), (tried,), BEGINNING, seed))
+
+    np.testing.assert_array_equal(goals[0], stored.curves(name)[last][:10])
+    assert goals.any()
 
 
 def test_the_time_that_all_of_it_takes_is_the_time_it_took():
