@@ -122,6 +122,7 @@ def nothing_is_told(page, handed_out):
 
 
 @tried
+@pytest.mark.timeout(7200)  # every page is handed out
 def test_nbgrader_hands_out_and_marks_what_it_is_given(tmp_path):
     assert for_graders.main(["nbgrader", str(tmp_path)]) == 0
     source = tmp_path / "source" / PAGE / f"{PAGE}.ipynb"
@@ -151,6 +152,7 @@ def test_nbgrader_hands_out_and_marks_what_it_is_given(tmp_path):
 
 
 @tried
+@pytest.mark.timeout(7200)  # every page is handed out
 def test_otter_assigns_and_marks_what_it_is_given(tmp_path):
     assert for_graders.main(["otter", str(tmp_path)]) == 0
     said = call(tmp_path, "otter", "assign", "-v", f"{PAGE}.ipynb", "tried")
