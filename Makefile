@@ -12,6 +12,8 @@
 # make nightly  the long forms of the tests that draw what happens, an hour; Run All of
 #   each page for students; a class of sixty; the graders' own tools; whether all that
 #   is pinned can be had for each Python
+# make exits  build the book with Sphinx alone, and with the newest versions: the way out
+#   of Jupyter Book 1, which is only maintained
 # make bench  measure the learning loops beside other people's, and the pages
 # make clean  remove what these made
 #
@@ -30,12 +32,12 @@ PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is p
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core test-browsers nightly lab lab-student pdf slides student zip bench clean env system
+.PHONY: book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core test-browsers nightly lab lab-student pdf slides student zip bench clean env system:
+book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -111,6 +113,20 @@ nightly: .venv/.book system
 	  $(BIN)/uv pip compile pyproject.toml --extra test --extra lab --extra grading -c constraints.txt \
 	    --python-version $$version --only-binary :all: --quiet > /dev/null || exit 1; \
 	done
+
+# In a copy, for the settings become a file of it.  Sphinx alone must do without a
+# warning; what the newest versions say is told only, for it changes from day to day.
+COPY := build/exits
+exits: .venv/.book
+	rm -rf $(COPY) && mkdir -p $(COPY)
+	git ls-files -z | xargs -0 tar cf - | tar xf - -C $(COPY)
+	cd $(COPY) && "$(HERE)/$(BIN)/jupyter-book" config sphinx book --config _config.yml \
+	  && mv conf.py book/ && PYTHONPATH=.:book/_ext \
+	  "$(HERE)/$(BIN)/sphinx-build" -W --keep-going -n -q -b html book out
+	$(PYTHON) -m venv --clear $(COPY)/newest
+	$(COPY)/newest/bin/python -m pip install --quiet "$(COPY)[test]"
+	cd $(COPY) && newest/bin/jupyter-book build book --config _config.yml \
+	  --path-output newest-book -n --keep-going --quiet || echo "The newest versions fail."
 
 # On a build server the browser comes from the system's packages and no test is
 # skipped; elsewhere the tests that need it say how to get it.

@@ -65,3 +65,42 @@ def test_the_formula_of_a_sweep_is_whole_on_a_phone(visit):
     )
 
     assert 0 < inside <= room
+
+
+# What a reader may ask for who reads with difficulty (WCAG 1.4.12).
+SPACED = """
+* { letter-spacing: 0.12em !important; word-spacing: 0.16em !important }
+article p { line-height: 1.5 !important }
+"""
+# Texts of charts that stick out of their picture, with the pixels.
+CUT = """() => [...document.querySelectorAll("svg.ab-chart text")].flatMap((text) => {
+    const [inner, outer] = [text, text.ownerSVGElement]
+        .map((each) => each.getBoundingClientRect());
+    const out = Math.max(inner.right - outer.right, outer.left - inner.left);
+    return outer.width && out > 1 ? [[text.textContent, Math.round(out)]] : [];
+})"""
+
+
+@pytest.mark.parametrize("name", ["03_learning", "07_driving_test", "08_advice"])
+def test_letters_may_stand_wider_apart(visit, name):
+    page = visit().open(name)
+    page.wait_for_function(LIVE)
+    page.add_style_tag(content=SPACED)
+    wrong = []
+    for width in (1280, 320):
+        found = at_width(page, width)
+        wrong += [(width, found["page"])] if found["page"] > width else []
+        wrong += [(width, *text) for text in page.evaluate(CUT)]
+
+    assert wrong == []
+
+
+def test_a_cell_of_an_editor_is_large_enough_for_a_finger(visit):
+    page = visit().open("01_building")
+    page.wait_for_function(LIVE)
+    page.set_viewport_size({"width": 360, "height": 900})
+    page.evaluate(PICTURES)
+    cell = page.locator("[data-scene=studio] .ab-tile").first
+    box = cell.evaluate("e => e.getBoundingClientRect().toJSON()")
+
+    assert round(min(box["width"], box["height"]), 1) >= 24

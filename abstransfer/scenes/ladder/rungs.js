@@ -27,6 +27,7 @@ export function makeLadders({ label, isCalm, height = 400 }) {
   const { svg, node, repaint, resize, describe } = sheet(label, paint);
   const places = {}; // of rungs: { from, to, began }
   let [columns, frame] = [[], null];
+  let [left, right] = [LEFT, RIGHT]; // what the texts need: a reader may space letters
 
   // Where a rung is on its way.
   function placeOf(place, now) {
@@ -114,6 +115,16 @@ export function makeLadders({ label, isCalm, height = 400 }) {
     ) => drawn("path", { d: `M${ends.join("L")}`, class: "ab-line", style: thin(arm) }));
     resize(width, height);
     svg.replaceChildren(...across, ...parts);
+    const wide = (end) =>
+      [...svg.querySelectorAll(`text[text-anchor="${end}"]`)].reduce(
+        (most, each) => Math.max(most, each.getComputedTextLength()),
+        0,
+      );
+    const needed = [LABEL + 28 + wide("end"), LABEL + 2 + wide("start")].map(Math.ceil);
+    if (needed[0] > left || needed[1] > right) {
+      [left, right] = [Math.max(left, needed[0]), Math.max(right, needed[1])];
+      return repaint();
+    }
     const isMoving = Object.values(places).some(({ began }) => now - began < GLIDE);
     if (isMoving) frame = requestAnimationFrame(repaint);
   }

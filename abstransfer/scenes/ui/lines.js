@@ -5,7 +5,7 @@ import { armStyle, count, drawn, make, marker, sheet } from "./dom.js";
 
 /** @import { Axis, Curve } from "../types.d.ts" */
 
-const [LEFT, RIGHT, TOP, BOTTOM] = [52, 100, 12, 40]; // margins
+const [LEFT, RIGHT, TOP, BOTTOM] = [58, 100, 12, 40]; // margins
 const LINE = 15; // height of a label
 
 /**
