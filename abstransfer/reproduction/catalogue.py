@@ -148,7 +148,9 @@ _SECOND_EDITION = (
     *(Operated(f"operations-{target}", 6, target) for target in TARGETS),
     Operated("drawn", 20, None),
 )
-EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION + NEIGHBOURS
+EXPERIMENTS = (
+    _FIRST_EDITION + _SECOND_EDITION + NEIGHBOURS + BLIND + WHISPER + TEACHER
+)
 #: What one command repeats alone.
 STUDIES = {
     "blind": BLIND,
@@ -211,7 +213,7 @@ def reproduce(
     ----------
     out : path
     experiments : iterable of what the catalogue holds
-        By default all that the book shows; the whole takes some 94 minutes of one
+        By default all that the book shows; the whole takes some 140 minutes of one
         core, as the stored records say, half of it on two.
     problem : Problem, optional
         What is not the book's; reward and target are those of the experiment.
