@@ -148,9 +148,7 @@ _SECOND_EDITION = (
     *(Operated(f"operations-{target}", 6, target) for target in TARGETS),
     Operated("drawn", 20, None),
 )
-EXPERIMENTS = (
-    _FIRST_EDITION + _SECOND_EDITION + NEIGHBOURS + BLIND + WHISPER + TEACHER
-)
+EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION + NEIGHBOURS + BLIND + WHISPER + TEACHER
 #: What one command repeats alone.
 STUDIES = {
     "blind": BLIND,
