@@ -6,7 +6,15 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["bench", "figures", "hypotheses", "neighbours", "traps"],
+    submodules=[
+        "bench",
+        "blind_rules",
+        "blind_tables",
+        "figures",
+        "hypotheses",
+        "neighbours",
+        "traps",
+    ],
     submod_attrs={
         "catalogue": ["EXPERIMENTS", "reproduce"],
         "guides": ["BETAS", "SHARES", "make_guides"],

@@ -6,7 +6,7 @@ Page 9 shows the claims, the page on neighbours the others.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
@@ -23,6 +23,8 @@ from .blind_rules import (
     log_ratio,
 )
 from .claims import CLAIMS, Claim
+from .hypotheses import predictions
+from .judgement import Judged
 
 Read = Callable[[str], Results]
 
@@ -44,6 +46,24 @@ def claims_table(read: Read = read_results) -> list[dict]:
                 "holds in": f"{held.sum()} of {len(held)}",
                 "over buildings": found.verdict,
                 "as predicted": "yes" if as_predicted(found) else "no",
+            }
+        )
+    return rows
+
+
+def verdicts_table(judged: Mapping[str, Judged]) -> list[dict]:
+    """Return a row for each hypothesis: what was predicted and known, what came."""
+    said, rows = predictions(), []
+    for key, found in judged.items():
+        claim, _, predicted, known = said[key]
+        rows.append(
+            {
+                "key": key,
+                "claim": claim,
+                "predicted": predicted,
+                "known before": known,
+                "verdict": found.verdict,
+                "as predicted": "yes" if as_predicted(found) else "**no**",
             }
         )
     return rows
@@ -81,7 +101,7 @@ def whispers_table(
         for arm in told:
             goals = by_building(results, arm["name"])
             row = rows.setdefault(arm["name"], {"whispered": arm["name"]})
-            size = f" (x {arm['size']:g})" if arm.get("table") else ""
+            size = f" (x {arm['size']:.3g})" if arm.get("size") else ""
             row[reading] = f"{goals.mean() / 1000:.0f}{size}: {gain(goals, base)}"
     return [{"whispered": ""} | dict.fromkeys(found, "") | row for row in rows.values()]
 

@@ -288,3 +288,11 @@ def test_tables_say_gains_over_buildings_with_sizes():
         "whispered": "values",
         "labels": "1 (x 1e-09): +10.0 % [+10.0, +10.0]",
     }
+
+
+def test_a_row_of_verdicts_says_what_was_predicted_and_what_came():
+    found = judge_blind(["W7"], lambda folder: made_up(WHISPERED))
+    row = blind_tables.verdicts_table(found)[0]
+
+    assert row["predicted"] == row["verdict"] == "holds"
+    assert row["as predicted"] == "yes"
