@@ -106,7 +106,7 @@ def test_an_interrupted_survey_goes_on_and_comes_out_the_same(survey, tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         run(on_progress=stop_early)
-    assert (tmp_path / "unfinished.jsonl").read_text().count("\n") > 1
+    assert (tmp_path / "unfinished.jsonl").read_text("utf-8").count("\n") > 1
     found = run()
 
     np.testing.assert_array_equal(found.goals, survey.goals)
