@@ -197,11 +197,11 @@ def first_of(key: str) -> str:
 
 def all_exercises() -> Iterator[Exercise]:
     """Yield the exercises of all pages, in order."""
-    for page in range(12):
+    for page in range(13):
         yield from exercises_of(page).values()
 
 
 def all_open_exercises() -> Iterator[Open]:
     """Yield the open exercises of all pages, in order."""
-    for page in range(12):
+    for page in range(13):
         yield from open_exercises_of(page).values()

@@ -2,7 +2,7 @@
 The card that a project hands in: what was raced, and the goals of each run.
 
 On the card a run is a life: cards that were handed in keep their words.
-The scene of page 11 writes the same text.  A person can read it, and :func:`verify`
+The scene of page 12 writes the same text.  A person can read it, and :func:`verify`
 runs the race again, and says which line is not so.
 """
 

@@ -1,7 +1,7 @@
 """
 A race: robots with and without advice learn in any building, features or tasks.
 
-It is the experiment of page 9 for a building of your own; page 11 of the book
+It is the experiment of page 9 for a building of your own; page 12 of the book
 teaches this module.
 """
 

@@ -1,7 +1,7 @@
 """
 A project: a race in a building of one's own, with features of one's own.
 
-The scene of page 11 runs the same races, to the last goal.
+The scene of page 12 runs the same races, to the last goal.
 """
 
 from __future__ import annotations

@@ -362,7 +362,7 @@ def page_10():
     yield [f"{dealt / 1000:.0f} and {thinned / 1000:.0f} thousand"]
 
 
-def page_11():
+def page_12():
     """Who drives and who teaches best in the school, one more door, fewer features."""
 
     def over_none(scene):

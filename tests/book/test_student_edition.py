@@ -355,7 +355,7 @@ IN_WORDS = {  # the questions that no check judges, in short
         *["At which margin", "choosing the margin"],
     ],
     "10_worst_driver": ["a good one"],
-    "11_your_turn": ["common sense"],
+    "12_your_turn": ["common sense"],
 }
 
 

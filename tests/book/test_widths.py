@@ -33,7 +33,7 @@ def test_the_index_fits_a_phone(visit):
 @pytest.mark.parametrize(
     "name",
     ["00_race", "01_building", "02_solving", "03_learning", "04_abstraction"]
-    + ["05_inducing", "07_driving_test", "11_your_turn"],
+    + ["05_inducing", "07_driving_test", "12_your_turn"],
 )
 def test_no_building_is_cut_without_a_sign(visit, name):
     page = visit().open(name)

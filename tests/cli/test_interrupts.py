@@ -100,7 +100,7 @@ def kind_of(code, err):
 def test_ctrl_c_at_any_moment_ends_a_command_with_one_line(tmp_path, name):
     arguments, latest = COMMANDS[name]
     (tmp_path / "handed-in").mkdir()
-    shutil.copy(ROOT / "book" / "11_your_turn.ipynb", tmp_path / "handed-in")
+    shutil.copy(ROOT / "book" / "12_your_turn.ipynb", tmp_path / "handed-in")
     rng, seen, wrong = random.Random(f"{name}{N}"), Counter(), []
     for _ in range(N):
         when = rng.uniform(0, latest)

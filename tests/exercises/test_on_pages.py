@@ -50,7 +50,7 @@ IN_PART = {
     "ex-5-2": "the set is divided by its size",
     "ex-6-2": "the answer is G",
     "ex-7-4": "what is compared is the order",
-    "ex-11-3": "each row is divided by its sum",
+    "ex-12-3": "each row is divided by its sum",
 }
 
 

@@ -19,7 +19,7 @@ OFFERED = [
 # Where a page solves it in other words.
 OTHERWISE = {
     ("ex-1-3", "told"): "`cell` is kept, so that it can be taken for the next one",
-    ("ex-11-3", "advice"): "a row may be empty, after a wrong line before it",
+    ("ex-12-3", "advice"): "a row may be empty, after a wrong line before it",
     ("ex-5-2", "ever"): "the page adds up where an action was best, not its votes",
 }
 

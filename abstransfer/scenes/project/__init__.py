@@ -1,1 +1,1 @@
-"""The scene of page 11."""
+"""The scene of page 12."""

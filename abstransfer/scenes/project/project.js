@@ -1,4 +1,4 @@
-// Your turn, page 11: a building and features of one's own, a race in it, and a result
+// Your turn, page 12: a building and features of one's own, a race in it, and a result
 // card to hand in.
 
 import { ITERATIONS } from "../engine/absprob_pi.js";

@@ -1,4 +1,4 @@
-"""The scene of page 11: a race in one's own building, and a card to hand in."""
+"""The scene of page 12: a race in one's own building, and a card to hand in."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Project(DrawnScene):
 
     Parameters
     ----------
-    map : Map, text or name, default the school of page 11
+    map : Map, text or name, default the school of page 12
         Where the robots learn; later, the last legal building that was drawn.
     text : str
         The drawing of it, legal or not.

@@ -1,4 +1,4 @@
-"""Exercises of page 11: your turn."""
+"""Exercises of page 12: your turn."""
 
 import numpy as np
 
@@ -61,7 +61,7 @@ def _cases(rng):
 
 EXERCISES = [
     function(
-        "ex-11-3",
+        "ex-12-3",
         "Write `toward_goal`, which makes advice. `possible` (Z, A) says "
         "which actions an abstract state allows, `heads` (A,) which of them lead "
         "toward the goal. Every row draws uniformly among the possible actions toward "
@@ -132,7 +132,7 @@ def toward_goal(possible, heads):
 
 OPEN = [
     Open(
-        "ex-11-1",
+        "ex-12-1",
         hints=(
             "What may stand between a room and a corridor?",
             "`at.parse_map` stops at the first mistake. Mend it and run again.",
@@ -141,7 +141,7 @@ OPEN = [
         good="a door into each room, found one message at a time",
     ),
     Open(
-        "ex-11-2",
+        "ex-12-2",
         hints=(
             "Copy the loop above; the list of features is `at.FEATURES`.",
             "An interval that lies on one side of 0 tells you the sign; two intervals "
@@ -150,7 +150,7 @@ OPEN = [
         good="without `near_goal` +7.3 %, without either of the others still below 0",
     ),
     Open(
-        "ex-11-4",
+        "ex-12-4",
         hints=(
             "What cuts an endless wait short? What else decides how much of a run the "
             "advice takes?",
@@ -160,7 +160,7 @@ OPEN = [
         good="one change with its reason, for instance two more doors: +8.6 %",
     ),
     Open(
-        "ex-11-5",
+        "ex-12-5",
         hints=(
             "`at.project.verify(text)`; a text in quotes three times may have many "
             "lines.",
