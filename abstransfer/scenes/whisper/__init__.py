@@ -1,0 +1,1 @@
+"""The scene of page 11: whispered advice."""
