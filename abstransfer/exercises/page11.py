@@ -30,8 +30,8 @@ EXERCISES = [
     value(
         "ex-11-1",
         "Alpha is 0.1, gamma 0.9, the reward of the step 0. The potential is 2 here "
-        "and 3 there. A robot starts with the potential as first notes: 2 for all actions "
-        "here, 3 for all actions there. What is its note after this one step?",
+        "and 3 there. A robot starts with the potential as first notes: 2 for all "
+        "actions here, 3 for all actions there. What is its note after this one step?",
         2.07,
         hints=(
             "It is one step of Q-learning: nine tenths of the old note, one tenth of "

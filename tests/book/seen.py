@@ -24,9 +24,11 @@ from abstransfer.scenes import (
     Ripple,
     Studio,
     Surgery,
+    Whisper,
 )
 from abstransfer.scenes.hill.widget import HALL, RHO, advice
 from abstransfer.scenes.microscope.widget import STARTS
+from abstransfer.scenes.whisper.widget import POWERS
 
 
 def place(map_, cell):
@@ -360,6 +362,21 @@ def page_10():
     yield [f"{100 * left:.0f} %", *(f"{n / 1000:.0f}" for n in (nd, erased, prob))]
     yield [f"{grafted / 1000:.0f} thousand"]
     yield [f"{dealt / 1000:.0f} and {thinned / 1000:.0f} thousand"]
+
+
+def page_11():
+    """When two robots wake, the sizes of a whisper, and what exists."""
+    scene = Whisper()
+    quiet, advised = scene.goals("values", 9), scene.goals("advice")
+    woke = [first(goals > 5000) * 0.5 for goals in (quiet, advised)]
+    yield ["5,000 goals", *(f"{x:g} million" for x in woke), "3.5 million"]
+    totals = {power: scene.goals("values", power).sum() for power in POWERS}
+    assert list(totals.values()) == sorted(totals.values())
+    thousands = [f"{totals[power] / 1000:.0f} thousand" for power in (0, 40)]
+    none, exists = scene.goals("none").sum(), scene.goals("exists", 9).sum()
+    yield ["Size 1", *thousands, f"{none / 1000:.0f}"]
+    others = (advised.sum(), quiet.sum())
+    yield [f"{exists / 1000:.0f} thousand", *(f"({n / 1000:.0f})" for n in others)]
 
 
 def page_12():

@@ -36,7 +36,8 @@ defineScene("whisper", {
     let growing = {}; // goals by window of runs that are not done
     let running = []; // their keys
 
-    const keyOf = (what, power = "-") => `${what} ${power} ${state.luck} ${state.steps}`;
+    /** @type {(what: string, power?: number) => string} */
+    const keyOf = (what, power) => `${what} ${power ?? "-"} ${state.luck} ${state.steps}`;
     const known = (what, power) => state.curves[keyOf(what, power)];
     const nameOf = (what, power) => `${WHAT[what]} × ${sizeText(power)}`;
 
@@ -84,9 +85,10 @@ defineScene("whisper", {
     }
     function learn(powers) {
       if (!state.bet || scene.isLearning) return;
-      const wanted = [["none"], ["advice"], ...powers.map((power) => [state.what, power])]
-        .filter((pair) => !known(...pair));
-      running = wanted.map((pair) => keyOf(...pair));
+      /** @type {any[][]} */
+      const all = [["none"], ["advice"], ...powers.map((power) => [state.what, power])];
+      const wanted = all.filter(([what, power]) => !known(what, power));
+      running = wanted.map(([what, power]) => keyOf(what, power));
       growing = {};
       const keys = running;
       if (!keys.length) return;
@@ -109,6 +111,7 @@ defineScene("whisper", {
       Array.from({ length: Math.max(...spec.powers) + 1 }, (_, power) => power)
         .filter((power) => known(what, power));
     function rows() {
+      /** @type {{ name: string, pair: any[], arm?: string, mark?: string }[]} */
       const found = [
         { name: runs.NAMES.none, pair: ["none"], arm: "none", mark: "none" },
         { name: "ND's advice, hard", pair: ["advice"], arm: "nd-hard", mark: "nd-hard" },
@@ -117,7 +120,7 @@ defineScene("whisper", {
         for (const power of tried(what)) {
           const isHere = what === state.what && power === state.power;
           const mark = power >= 6 ? IN_BENCH[what] : undefined;
-          const arm = isHere ? "yours" : undefined;
+          const arm = isHere ? "prob-hard" : undefined;
           found.push({ name: nameOf(what, power), pair: [what, power], arm, mark });
         }
       }
@@ -181,12 +184,19 @@ defineScene("whisper", {
       }
       bars.set(shown);
       const curves = found.filter(({ pair, arm }) => arm && known(...pair));
-      chart.set(curves.map(({ name, pair, arm }) => ({ name, arm, goals: known(...pair) })));
+      const short = { none: "none", advice: "advised" };
+      chart.set(
+        curves.map(({ pair, arm }) => ({
+          name: short[pair[0]] ?? "whispered",
+          arm,
+          goals: known(...pair),
+        })),
+      );
       const powers = tried(state.what);
       const points = powers.map((power) => [power, total(state.what, power)]);
       bySize.node.hidden = powers.length < 2;
       bySize.set({
-        curves: [{ name: WHAT[state.what], arm: "yours", points }],
+        curves: [{ name: WHAT[state.what], arm: "prob-hard", points }],
         marks: [],
         cursor: state.power,
       });
