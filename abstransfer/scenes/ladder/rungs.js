@@ -27,7 +27,7 @@ export function makeLadders({ label, isCalm, height = 400 }) {
   const { svg, node, repaint, resize, describe } = sheet(label, paint);
   const places = {}; // of rungs: { from, to, began }
   let [columns, frame] = [[], null];
-  let [left, right] = [LEFT, RIGHT]; // what the texts need: a reader may space letters
+  let [leftmost, rightmost] = [0, 0]; // what the texts need: a reader may space letters
 
   // Where a rung is on its way.
   function placeOf(place, now) {
@@ -57,7 +57,8 @@ export function makeLadders({ label, isCalm, height = 400 }) {
     if (!svg.isConnected) return;
     const now = performance.now();
     const isNarrow = width < 400;
-    const { left, right, gap } = isNarrow ? NARROW : WIDE;
+    const { gap, ...room } = isNarrow ? NARROW : WIDE;
+    const [left, right] = [Math.max(room.left, leftmost), Math.max(room.right, rightmost)];
     const y = (value) => TOP - ((height - TOP - BOTTOM) * value) / 100;
     const thin = (arm) => `stroke:${armStyle(arm).color};stroke-width:1`;
     const text = (content, x, top, look) => drawn("text", { x, y: top, ...look }, content);
@@ -120,11 +121,9 @@ export function makeLadders({ label, isCalm, height = 400 }) {
         (most, each) => Math.max(most, each.getComputedTextLength()),
         0,
       );
-    const needed = [LABEL + 28 + wide("end"), LABEL + 2 + wide("start")].map(Math.ceil);
-    if (needed[0] > left || needed[1] > right) {
-      [left, right] = [Math.max(left, needed[0]), Math.max(right, needed[1])];
-      return repaint();
-    }
+    leftmost = Math.ceil(gap + (isNarrow ? 2 : 28) + wide("end"));
+    rightmost = Math.ceil(gap + 2 + wide("start"));
+    if (leftmost > left || rightmost > right) return repaint();
     const isMoving = Object.values(places).some(({ began }) => now - began < GLIDE);
     if (isMoving) frame = requestAnimationFrame(repaint);
   }
