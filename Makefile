@@ -98,7 +98,7 @@ test-browsers: .venv/.book system
 # What is killed, filled up, interrupted or asked for at random; one after another,
 # for an interrupt is meant for one.
 nightly: .venv/.book system
-	DISTURBANCES=250 $(BIN)/python -m pytest --quiet --capture=tee-sys \
+	DISTURBANCES=250 INTERRUPTS=100 $(BIN)/python -m pytest --quiet --capture=tee-sys \
 	  tests/experiments/test_store.py tests/cli/test_interrupts.py \
 	  tests/scenes/test_addresses.py
 	EVERY_PAGE=1 $(BIN)/python -m pytest --quiet -k run_all \

@@ -42,7 +42,7 @@ cli.program()
 INTERRUPTED = "abstransfer: interrupted"
 BEFORE = ("abstransfer: compiling", "this may take about")  # may be said before
 # For each command at each check; in the night: make nightly
-N = int(os.environ.get("DISTURBANCES", 1))
+N = int(os.environ.get("INTERRUPTS", 1))
 
 
 def interrupt(arguments, when, folder):
