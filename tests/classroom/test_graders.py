@@ -87,7 +87,11 @@ def call(folder, *words):
     places = {"PATH": path, "PYTHONPATH": str(ROOT)}
     command = [str(Path(TOOLS, words[0])), *map(str, words[1:])]
     done = subprocess.run(
-        command, cwd=folder, env=os.environ | places, capture_output=True, text=True
+        command,
+        cwd=folder,
+        env=os.environ | places,
+        capture_output=True,
+        encoding="utf-8",
     )
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stdout + done.stderr
