@@ -83,7 +83,7 @@ def hand_in(folder: Path, students: int, handed_out) -> dict[str, str]:
     for i in range(students):
         kind, student = KINDS[i % len(KINDS)], f"Student {i + 1:02}"
         turn = i // len(KINDS)
-        mistake = turn if kind == "mistake" else None
+        mistake = i // 2 if kind == "mistake" else None
         notebook = answered(handed_out, student, mistake)
         if kind == "right":
             notebook.cells.append(new_code_cell(BET))
