@@ -121,7 +121,8 @@ def hand_in_cards(folder: Path, cards: int) -> None:
         setup = Setup(building_of(student), guides=("nd",), runs=1, student=student)
         text = card_text(setup, run(setup).goals)
         if i == cards - 1:
-            text = re.sub(r"\| nd \| (\d)", lambda f: f"| nd | {9 - int(f[1])}", text)
+            head, goals = re.search(r"(\| nd \| \S+ \| )(\d+)", text).groups()
+            text = text.replace(head + goals, f"{head}{int(goals) + 1}")
         cell = new_code_cell("print(card)", outputs=[new_output("stream", text=text)])
         notebook = nbformat.v4.new_notebook(cells=[cell])
         nbformat.write(notebook, folder / f"{i + 1:02}.ipynb")
@@ -202,9 +203,11 @@ def main(arguments: list[str] | None = None) -> int:
     wall = options.out / "wall.svg"
     claim = ("--robot", "nd", "--over", "none", "--figure", wall)
     started = time.monotonic()
-    used = call("pool", cards, *claim)
-    minutes = (time.monotonic() - started) / 60
-    print(f"Pooling: {minutes:.1f} min; {used / 60:.1f} min of processor time")
+    command = [sys.executable, "-m", "abstransfer", "class", "pool", cards, *claim]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    print(f"{said}Pooling: {(time.monotonic() - started) / 60:.1f} min")
+    if said.count("left out") != 1:
+        failed.append(("the forged card", "is not the one that is", "left out"))
     for each in failed:
         print("not as it should be:", *each, file=sys.stderr)
     return bool(failed)
