@@ -30,24 +30,24 @@ EXERCISES = [
     value(
         "ex-11-1",
         "Alpha is 0.1, gamma 0.9, the reward of the step 0. The potential is 2 here "
-        "and 3 there. A robot starts with the potential as first notes: 2 for all "
-        "actions here, 3 for all actions there. What is its note after this one step?",
-        2.07,
+        "and 6 there. A robot starts with the potential as first notes: 2 for all "
+        "actions here, 6 for all actions there. What is its note after this one step?",
+        2.34,
         hints=(
             "It is one step of Q-learning: nine tenths of the old note, one tenth of "
             "the target.",
             "The target is 0 + 0.9 times the largest note there.",
-            "`0.9 * 2 + 0.1 * (0 + 0.9 * 3)`.",
+            "`0.9 * 2 + 0.1 * (0 + 0.9 * 6)`.",
         ),
         wrong=[
             Wrong(
                 "the target", 2.7, "That is the target: a note goes a tenth of the way."
             ),
-            Wrong("no discount", 2.1, "The largest note there counts 0.9 times."),
-            Wrong("alpha the other way", 2.63, "Nine tenths of the old note stay."),
+            Wrong("no discount", 2.4, "The largest note there counts 0.9 times."),
+            Wrong("alpha the other way", 5.06, "Nine tenths of the old note stay."),
             Wrong(
                 "the shaped robot's",
-                0.07,
+                0.34,
                 "That is the note of the robot with shaping, which starts from 0.",
             ),
         ],
@@ -57,19 +57,19 @@ EXERCISES = [
         "The same step of a robot with shaping: its notes are 0, and gamma times the "
         "potential there, less the potential here, is added to the reward. What is its "
         "note?",
-        0.07,
+        0.34,
         hints=(
             "First the reward with what is added, then the step of Q-learning.",
-            "Added is 0.9 times 3, less 2.",
-            "`0.9 * 0 + 0.1 * (0 + 0.9 * 3 - 2 + 0.9 * 0)`.",
+            "Added is 0.9 times 6, less 2.",
+            "`0.9 * 0 + 0.1 * (0 + 0.9 * 6 - 2 + 0.9 * 0)`.",
         ),
         wrong=[
             Wrong(
                 "the target", 0.7, "That is the target: a note goes a tenth of the way."
             ),
-            Wrong("no discount", 0.1, "The potential there counts 0.9 times."),
-            Wrong("the sign", -0.07, "There is added, here is taken away."),
-            Wrong("with first notes", 2.07, "This robot starts from notes of 0."),
+            Wrong("no discount", 0.4, "The potential there counts 0.9 times."),
+            Wrong("the sign", -0.34, "There is added, here is taken away."),
+            Wrong("with first notes", 2.34, "This robot starts from notes of 0."),
         ],
     ),
     function(
