@@ -7,7 +7,7 @@ from ._model import Open, Wrong, function, stub, value
 
 def whisper(values, rho, size):
     """Return first notes (S, A): the values of each state's view, times a size."""
-    return size * values[rho]
+    return size * np.take(values, rho, axis=0)
 
 
 def whisper_state_by_state(values, rho, size):
@@ -41,7 +41,7 @@ EXERCISES = [
         ),
         wrong=[
             Wrong(
-                "the target", 2.7, "That is the target: a note goes a tenth of the way."
+                "the target", 5.4, "That is the target: a note goes a tenth of the way."
             ),
             Wrong("no discount", 2.4, "The largest note there counts 0.9 times."),
             Wrong("alpha the other way", 5.06, "Nine tenths of the old note stay."),
@@ -65,7 +65,7 @@ EXERCISES = [
         ),
         wrong=[
             Wrong(
-                "the target", 0.7, "That is the target: a note goes a tenth of the way."
+                "the target", 3.4, "That is the target: a note goes a tenth of the way."
             ),
             Wrong("no discount", 0.4, "The potential there counts 0.9 times."),
             Wrong("the sign", -0.34, "There is added, here is taken away."),
@@ -135,18 +135,18 @@ def whisper(values, rho, size):
     value(
         "ex-11-3",
         "Jump-start draws for each episode how many steps the guide has: 0, 1, ..., "
-        "79, all equally likely. How many are they on average?",
-        39.5,
+        "19, all equally likely. How many are they on average?",
+        9.5,
         hints=(
             "The numbers are spread evenly: look at the two ends.",
-            "The least is 0, the largest is 79.",
-            "`(0 + 79) / 2`.",
+            "The least is 0, the largest is 19.",
+            "`(0 + 19) / 2`.",
         ),
         wrong=[
-            Wrong("half of H", 40, "The largest that can be drawn is 79, not 80."),
-            Wrong("from 1", 40.5, "The least is 0: then the robot acts at once."),
-            Wrong("the most", 79, "So many at most; fewer are as likely."),
-            Wrong("H", 80, "That is how many numbers there are."),
+            Wrong("half of H", 10, "The largest that can be drawn is 19, not 20."),
+            Wrong("from 1", 10.5, "The least is 0: then the robot acts at once."),
+            Wrong("the most", 19, "So many at most; fewer are as likely."),
+            Wrong("H", 20, "That is how many numbers there are."),
         ],
     ),
 ]
