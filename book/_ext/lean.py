@@ -11,6 +11,7 @@ import re
 from pathlib import Path
 
 SETTINGS = "_static/settings.js"
+OF_THEME = "data-content_root="  # what only pages of the theme have
 # 1.5 MB of icons as a script: the style sheet has the same icons as a font.
 ICONS = re.compile(r'<script src="[^"]*/fontawesome\.js[^"]*"></script>')
 # Live code on a remote server, versions of a page, an index that folds: this book has
@@ -44,7 +45,9 @@ def lighten(app, exception):
     out, settings = Path(app.outdir), [KEPT]
     for page in sorted(out.glob("*.html")):
         text = page.read_text(encoding="utf-8")
-        page.write_text(without_inline(text, settings), encoding="utf-8", newline="\n")
+        if OF_THEME in text:
+            text = without_inline(text, settings)
+            page.write_text(text, encoding="utf-8", newline="\n")
     text = "".join(f"{body}\n" for body in settings)
     Path(out, SETTINGS).write_text(text, encoding="utf-8", newline="\n")
     for file in Path(out, "_static", "scripts").glob("fontawesome.js*"):
