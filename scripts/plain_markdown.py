@@ -27,6 +27,7 @@ LABEL = re.compile(r"^\([\w-]+\)=\n", re.MULTILINE)
 MOMENT = re.compile(r'<a [^>]*href="#[^>]*>(.*?)</a>', re.DOTALL)
 ALONE = re.compile(r"^\$\$(.+)\$\$$", re.MULTILINE)
 LETTER = re.compile(r"\$(\w)\$")  # in HTML not every viewer looks for formulas
+HEADING = re.compile(r"^\(([\w-]+)\)=\n#+ (.*)$", re.MULTILINE)
 NUMBERED = re.compile(r"\{math\}\n:label: *(\S+)")
 
 
@@ -37,6 +38,7 @@ class Course:
     titles: dict[str, str] = field(default_factory=dict)  # by name of the page
     notebooks: set[str] = field(default_factory=set)  # names of pages to link to
     equations: dict[str, int] = field(default_factory=dict)  # numbers by label
+    headings: dict[str, str] = field(default_factory=dict)  # by the label above
     works: dict[str, tuple[str, str]] = field(default_factory=dict)  # authors, year
 
 
@@ -54,6 +56,7 @@ def read_course(book: Path) -> Course:
             course.equations[label] = len(course.equations) + 1
     for name, text in texts.items():
         course.titles[name] = re.search(r"^# (.*)$", text, re.MULTILINE)[1]
+        course.headings |= HEADING.findall(text)
     for key, entry in parse_file(book / "references.bib").entries.items():
         names = [
             " ".join([*person.prelast_names, *person.last_names])
@@ -119,6 +122,8 @@ def _words(role: str, text: str, target: str | None, course: Course) -> str:
         return f"[{words}]({page}.ipynb)" if page in course.notebooks else f"*{words}*"
     if role in ("ref", "term") and (target or role == "term"):
         return text
+    if role == "ref" and text in course.headings:
+        return f"*{course.headings[text]}*"
     if role in ("func", "mod", "class"):
         return f"`{text.removeprefix('~')}`"
     if role in ("cite", "cite:t"):

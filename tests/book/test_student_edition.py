@@ -146,6 +146,7 @@ def test_what_would_tell_or_fail_is_left_out(code, expected):
         ("```{math}\n:label: eq-rho\nx\n```", "$$\nx\n\\tag{7}\n$$"),
         ("```{math}\nx\n```", "$$\nx\n$$"),
         ("see {eq}`eq-rho`, {ref}`exercise 1 <ex-0-1>`", "see (7), exercise 1"),
+        ("see {ref}`blind`", "see *Of the blind*"),
         ("{doc}`00_race`; {doc}`notation`; {doc}`it <00_race>`",
          "[The race](00_race.ipynb); *Words*; [it](00_race.ipynb)"),
         ("{cite}`me`, {cite:t}`me`, {term}`sweeps <sweep>`",
@@ -171,7 +172,11 @@ def test_every_form_of_a_page_has_a_plain_one(text, expected):
     titles = {"00_race": "The race", "notation": "Words"}
     works = {"me": ("Me", "2015")}
 
-    assert plain(text, Course(titles, {"00_race"}, {"eq-rho": 7}, works)) == expected
+    course = Course(
+        titles, {"00_race"}, {"eq-rho": 7}, {"blind": "Of the blind"}, works
+    )
+
+    assert plain(text, course) == expected
 
 
 @pytest.mark.parametrize("text", ["```{video} x\n```", "{sub}`2`"])
