@@ -360,6 +360,7 @@ IN_WORDS = {  # the questions that no check judges, in short
         *["At which margin", "choosing the margin"],
     ],
     "10_worst_driver": ["a good one"],
+    "11_neighbours": ["How far are they apart"],
     "12_your_turn": ["common sense"],
 }
 
