@@ -44,7 +44,7 @@ class Tried(NamedTuple):
     """A method with one of its settings."""
 
     method: str  #: a name in NAMES
-    setting: object
+    setting: object  #: one of its settings
 
     def record(self, name: str) -> dict:
         """Return it for JSON, as an arm of this name."""

@@ -121,9 +121,9 @@ class Start(NamedTuple):
 
     q0: np.ndarray | float = 0.0  #: first notes, (S, A)
     guide: np.ndarray | None = None  #: (S, A)
-    strategy: str = "hard"
-    tau: int = 0
-    rival: rivals.Rival | None = None
+    strategy: str = "hard"  #: "hard" or "soft"
+    tau: int = 0  #: steps in which the guide has a say
+    rival: rivals.Rival | None = None  #: None: the learner of the book
     epsilon: float | None = None  #: by default the problem's
 
 

@@ -49,7 +49,7 @@ ENDS = ("beta-0", "beta-1", "available")  # of which other advice is made
 class Told(NamedTuple):
     """An arm, and what is whispered to its robot."""
 
-    arm: Arm
+    arm: Arm  #: its advice, strategy and tau
     table: str = ""  #: a name in `whispers`, or CEILING
     size: float = 0.0  #: of the first notes: the table is multiplied by it
     own: str = ""  #: a survey whose best arm of this kind sets advice, tau or size
@@ -119,8 +119,8 @@ class Case(NamedTuple):
 class Outcome(NamedTuple):
     """What came of the runs."""
 
-    goals: tuple[int, ...]
-    measures: tuple[dict, ...]
+    goals: tuple[int, ...]  #: of each run
+    measures: tuple[dict, ...]  #: what else was measured of each run, by name
     seconds: float  #: of one core
 
 

@@ -138,7 +138,7 @@ def policy_reuse(fade: float = 0.95, rest: str = "greedy") -> Rival:
 
 class Library(NamedTuple):
     psi: np.ndarray  #: (1,) as in Reuse
-    fade: float
+    fade: float  #: v, as in Reuse
     rho: np.ndarray  #: (S,) abstract state
     bound: np.ndarray  #: (N, Z, A) chances of N policies, in 65536ths
     who: np.ndarray  #: (2,) policy of this episode, N for none; steps in it
@@ -221,7 +221,7 @@ class Jump(NamedTuple):
     left: np.ndarray  #: (1,) steps that the guide still has in this episode
     most: int  #: H
     stage: np.ndarray  #: (1,) stages still to come; 0: the guide has no say
-    stages: int
+    stages: int  #: in all
     arrived: np.ndarray  #: (3,) episodes and goals since the last look; best share
     luck: np.ndarray  #: (4,)
 
@@ -319,7 +319,7 @@ def heuristic(bonus: np.ndarray, rho: np.ndarray) -> Rival:
 class Held(NamedTuple):
     kept: np.ndarray  #: (3,) action, steps that it is kept for, view it was chosen in
     rho: np.ndarray  #: (S,) abstract state
-    longest: int
+    longest: int  #: steps for which an action is kept at most
     bound: np.ndarray  #: (N,) words below bound[n] hold for n further steps, or fewer
     luck: np.ndarray  #: (4,)
 
@@ -406,7 +406,7 @@ def z_greedy(mu: float = 2.0) -> Rival:
 class Decay(NamedTuple):
     first: float  #: epsilon of the first step
     last: float  #: epsilon of step `until` and later
-    until: int
+    until: int  #: step from which epsilon stays
 
 
 @part
