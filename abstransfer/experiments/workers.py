@@ -146,7 +146,8 @@ def _collect(futures, on_result, heard=()) -> None:
     waiting = futures
     while waiting and not heard:
         done, waiting = wait(waiting, LOOK, FIRST_COMPLETED)
-        for future in done:
+        # What is done is kept, also where a job beside it has failed.
+        for future in sorted(done, key=lambda each: each.exception() is not None):
             on_result(futures[future], future.result())
 
 
