@@ -8,7 +8,7 @@ from run_scenes import Shown
 from scene_tab import bare
 
 from abstransfer import scenes
-from abstransfer.scenes import Dial, Project, Race, Surgery, TauSlider
+from abstransfer.scenes import Dial, Project, Race, Surgery, TauSlider, Whisper
 
 STEPS = 600_000
 OPERATION = {"patient": "nd", "operation": "erase"}
@@ -65,12 +65,18 @@ def surgery(tab):
     return tab.wait("goals after the advice.", ".ab-body > p")
 
 
+def whisper(tab):
+    tab.bet("more goals than ND's advice").button("Whisper, and").click()
+    return tab.wait("goals. Choose another", ".ab-body > p")
+
+
 CASES = {
     "race": (Race, {"full": True, "steps": STEPS}, race, 30),
     "tau": (TauSlider, {"steps": STEPS}, tau, 30),
     "dial": (Dial, {"steps": STEPS}, dial, 30),
     "project": (Project, {"lives": 1}, project, 5),
     "surgery": (Surgery, {"steps": STEPS, **OPERATION}, surgery, 20),
+    "whisper": (Whisper, {"steps": STEPS}, whisper, 30),
 }
 
 
