@@ -240,7 +240,8 @@ def probe():
     scenes = KINDS["hill"].spec() | KINDS["microscope"].spec()
     spec = scenes | {"student": STUDENT}
     said = front.said(spec=spec, isWidget=True)
-    return f"((python) => {{\n{bundle.bundle_one(PROBE)}}})({said})"
+    worker = f"python.worker = (self) => {{\n{front.bundled('worker')}}};\n"
+    return f"((python) => {{\n{worker}{bundle.bundle_one(PROBE)}}})({said})"
 
 
 @pytest.fixture

@@ -18,10 +18,11 @@ SAID = """() => Object.fromEntries(
         const { content, visibility } = getComputedStyle(scene, "::after");
         return [scene.dataset.scene, visibility === "visible" ? content : "none"];
     }))"""
-# Learn something in workers, and have it learned.
-LEARNED = (
-    """() => document.querySelector('[data-scene="tau"] .ab-closing')?.textContent"""
-)
+# Learn something in workers, and have all of it learned.
+LEARNED = """() => {
+    const said = document.querySelector('[data-scene="tau"] .ab-closing')?.textContent;
+    return said?.includes("Of 3 \u03c4") && said;
+}"""
 
 
 def write(folder, names, without):
