@@ -12,12 +12,11 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from scipy.stats import kendalltau
 
-from ..experiments.results import Results, read_results
+from ..experiments.results import read_results
 from ..experiments.stats import rank_interval
 from .bench import BEST_OF_PAPER, CEILING, DRAWN, NAMES, TARGET
-from .judgement import Judged, Part, all_together, of_mean, place
+from .judgement import Judged, Part, Read, judge_by, of_mean, place
 
-Read = Callable[[str], Results]
 UNINFORMED = (
     *("optimism", "hold", "z-greedy", "decay", "bonus", "q-lambda", "replay"),
 )
@@ -95,10 +94,4 @@ def judge_bench(
     FileNotFoundError
         If results are missing, by name.
     """
-    judged = {}
-    for key in keys:
-        if key not in RULES:
-            raise ValueError(f"keys must be among {', '.join(RULES)}, got {key!r}")
-        parts = tuple(RULES[key](read))
-        judged[key] = Judged(key, parts, all_together(parts))
-    return judged
+    return judge_by(RULES, keys, read)

@@ -17,10 +17,9 @@ from ..experiments.results import Results, read_results
 from ..experiments.stats import Interval, t_interval
 from .claims import CLAIMS, Claim
 from .hypotheses import FIVE, ND, OPERATED, PROB, contrast, predictions, share_of_lead
-from .judgement import Judged, Part, all_together, of_count, of_mean, place
+from .judgement import Judged, Part, Read, judge_by, of_count, of_mean, place
 from .verdicts import Finding
 
-Read = Callable[[str], Results]
 WHERE = "drawn"
 GOAL_READINGS = ("labels", "masked", "compass")
 MOST = 20  # buildings of 24 in which a claim is to hold
@@ -340,13 +339,7 @@ def judge_blind(
     FileNotFoundError
         If results are missing, by name.
     """
-    judged = {}
-    for key in keys:
-        if key not in RULES:
-            raise ValueError(f"keys must be among {', '.join(RULES)}, got {key!r}")
-        parts = tuple(RULES[key](read))
-        judged[key] = Judged(key, parts, all_together(parts))
-    return judged
+    return judge_by(RULES, keys, read)
 
 
 def as_predicted(found: Judged) -> bool:

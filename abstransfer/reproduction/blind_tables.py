@@ -6,7 +6,7 @@ Page 9 shows the claims, the page on neighbours the others.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -24,9 +24,7 @@ from .blind_rules import (
 )
 from .claims import CLAIMS, Claim
 from .hypotheses import predictions
-from .judgement import Judged
-
-Read = Callable[[str], Results]
+from .judgement import Judged, Read
 
 
 def claims_table(read: Read = read_results) -> list[dict]:

@@ -26,8 +26,9 @@ from .judgement import (
     UNDECIDED,
     Judged,
     Part,
-    all_together,
+    Read,
     gains,
+    judge_by,
     of_count,
     of_gain,
     of_mean,
@@ -35,7 +36,6 @@ from .judgement import (
 from .readings import judge_reading
 from .verdicts import FAILS, IN_PART
 
-Read = Callable[[str], Results]
 ND, PROB = "nd", "prob"
 FIVE = (ND, PROB, "half", "eager", "wanderer")  # robots whose measures B4 compares
 LEAD = {ND: 1, PROB: -1}
@@ -397,13 +397,7 @@ def judge_hypotheses(
     >>> judge_hypotheses(["N1"])["N1"].verdict
     'holds'
     """
-    judged = {}
-    for key in keys:
-        if key not in RULES:
-            raise ValueError(f"keys must be among {', '.join(RULES)}, got {key!r}")
-        parts = tuple(RULES[key](read))
-        judged[key] = Judged(key, parts, all_together(parts))
-    return judged
+    return judge_by(RULES, keys, read)
 
 
 def hypotheses_table(judged: Mapping[str, Judged]) -> list[dict]:

@@ -7,13 +7,15 @@ it, and is refuted if the whole of it lies elsewhere.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
+from ..experiments.results import Results
 from ..experiments.stats import Interval, gain_interval, t_interval
 
+Read = Callable[[str], Results]  # the results of a folder, by its name
 HOLDS, REFUTED, UNDECIDED = "holds", "refuted", "undecided"
 HOLDS_IN_PART, REFUTED_IN_PART = "holds in part", "refuted in part"
 
@@ -110,3 +112,18 @@ def gains(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """
     ratio = a.mean() / b.mean()
     return (ratio - 1) + ratio * (a / a.mean() - b / b.mean())
+
+
+def judge_by(
+    rules: Mapping[str, Callable[[Read], Iterable[Part]]],
+    keys: Iterable[str],
+    read: Read,
+) -> dict[str, Judged]:
+    """Return the verdicts on hypotheses by these rules; ValueError if one has none."""
+    judged = {}
+    for key in keys:
+        if key not in rules:
+            raise ValueError(f"keys must be among {', '.join(rules)}, got {key!r}")
+        parts = tuple(rules[key](read))
+        judged[key] = Judged(key, parts, all_together(parts))
+    return judged
