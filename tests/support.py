@@ -16,6 +16,19 @@ ROOT = Path(__file__).parents[1]
 ELSEWHERE = re.compile("^(?!file:)")  # addresses that are no files
 HTML = ROOT / "build" / "_build" / "html"
 PATIENCE = 240  # seconds until what a page does must be there, on a busy machine too
+# Scenes live, letters are there, nothing glides, and it was painted.
+DRAWN = """async () => {
+    const pictures = async (n) => {
+        while (n--) await new Promise(requestAnimationFrame);
+    };
+    await document.fonts.ready;
+    const waiting = ".abstransfer-scene:not(.ab-live)";
+    while (document.querySelector(waiting)) await pictures(1);
+    await pictures(2);
+    while (document.getAnimations().some((each) => each.playState === "running"))
+        await pictures(1);
+    await pictures(2);
+}"""
 FLAGS = (
     "--no-sandbox",
     "--disable-gpu",
@@ -71,6 +84,16 @@ def served(folder, policy=""):
         finally:
             server.shutdown()
             thread.join()
+
+
+def drawn(page):
+    """Wait until formulas, letters and scenes are there, and no colour glides."""
+    if page.locator(".math").count():
+        # One that is folded away is never seen: it is enough that it is made.
+        page.wait_for_selector("mjx-container", state="attached")
+        page.evaluate("MathJax.startup.promise")
+    page.evaluate(DRAWN)
+    return page
 
 
 class NoExecutor(Executor):

@@ -2,7 +2,7 @@
 
 import pytest
 from legible import faults, pale
-from support import Visit, toc_pages
+from support import Visit, drawn, toc_pages
 from test_pages import BOOK, LESSONS, questions, text_of
 
 # What the theme itself does wrong: (rule, part of the element).
@@ -13,34 +13,10 @@ KNOWN = (
     ("aria-required-children", "citation-list"),
 )
 WIDE, PHONE, SMALL = ({"width": width, "height": 900} for width in (1440, 400, 320))
-# Scenes live, letters are there, nothing glides, and it was painted.
-DRAWN = """async () => {
-    const pictures = async (n) => {
-        while (n--) await new Promise(requestAnimationFrame);
-    };
-    await document.fonts.ready;
-    const waiting = ".abstransfer-scene:not(.ab-live)";
-    while (document.querySelector(waiting)) await pictures(1);
-    await pictures(2);
-    while (document.getAnimations().some((each) => each.playState === "running"))
-        await pictures(1);
-    await pictures(2);
-}"""
-
 # Displayed formulas that need more room than their column, and how much.
 WIDER = """() => [...document.querySelectorAll("article div.math")]
     .map((box) => [box.id, box.scrollWidth, box.clientWidth])
     .filter(([, needed, given]) => needed > given + 1)"""
-
-
-def drawn(page):
-    """Wait until formulas, letters and scenes are there, and no colour glides."""
-    if page.locator(".math").count():
-        # One that is folded away is never seen: it is enough that it is made.
-        page.wait_for_selector("mjx-container", state="attached")
-        page.evaluate("MathJax.startup.promise")
-    page.evaluate(DRAWN)
-    return page
 
 
 @pytest.fixture(scope="module")

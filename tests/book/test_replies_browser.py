@@ -1,10 +1,10 @@
 """The built pages reply: to bets, to their quiz, to links to a moment of the scene."""
 
 import pytest
+from support import drawn
 from test_bets import BETS, PAGES, plain
 from test_moments import links
 
-LIVE = "() => !document.querySelector('.abstransfer-scene:not(.ab-live)')"
 NAMES = [path.stem for path in PAGES]
 STATE = """scene => [scene.querySelector('.ab-body').innerHTML,
     ...[...scene.querySelectorAll('input')].map((e) => e.value + e.checked)].join()"""
@@ -20,13 +20,11 @@ CALM = """() => new Promise((done) => {
 
 @pytest.fixture
 def opened(visit):
-    """Open a page of the book with its scenes alive."""
+    """Open a page of the book, and wait until nothing on it moves."""
 
     def open_page(name, query="", **looks):
         tab = visit(**looks)
-        page = tab.open(name, query)
-        page.wait_for_function(LIVE)
-        return page, tab
+        return drawn(tab.open(name, query)), tab
 
     return open_page
 
@@ -79,7 +77,7 @@ def test_a_bet_and_a_choice_are_kept_and_forgotten(opened):
     page.locator(f"#{bet.name} .bet-option").first.click()
     page.locator("#quiz summary").nth(1).click()
     page.reload()
-    page.wait_for_function(LIVE)
+    drawn(page)
 
     assert page.locator(f"#{bet.name}.bet-folded").count() == 1
     assert page.locator("#quiz details[open]").count() == 1
