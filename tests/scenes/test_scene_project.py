@@ -333,7 +333,7 @@ def test_an_address_a_reset_and_how_much_a_move_paints(open_scene):
     tab.root.get_by_text("What the robots see").click()
     tab.root.get_by_label("in a room").uncheck()
     assert "in_room" not in tab.url_with("features=%5B")
-    moves = tab.writes_by_moves(".ab-slider input", 2)
+    moves = driven(tab).writes_by_moves(".ab-slider input", 2)
     tab.click("Reset")
 
     assert max(moves) < 40, "the building stays"
