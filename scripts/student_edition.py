@@ -42,7 +42,7 @@ STATED = re.compile(
     r"^```\{exercise-start\}\n:label: (\S+)\n```\n(.*?)^```\{exercise-end\}",
     re.M | re.S,
 )
-CODE = re.compile(r"^```.*?^```$|^    .*$|^\*\*.*\*\*$", re.M | re.S)  # or a title
+CODE = re.compile(r"^```(?s:.*?)^```$|^    .*$|^\*\*.*\*\*$", re.M)  # or a title
 TAKEAWAYS = re.compile(r"^## Takeaways\n\n(.*?)(?=\n\n#|\Z)", re.M | re.S)
 FOLDED = """\
 ## Takeaways
@@ -126,7 +126,7 @@ def not_judged(key: str, text: str) -> list[str]:
         return found if found[1:] else []
     for exercise in judged:
         about = max(found, key=lambda q: _in_common(q, exercise.task), default="")
-        least = 0.65 if exercise.cases else 0.0  # code need not be asked for by a "?"
+        least = 0.8 if exercise.cases else 0.0  # code need not be asked for by a "?"
         if about and _in_common(about, exercise.task) > least:
             found.remove(about)
     return found

@@ -359,7 +359,7 @@ IN_WORDS = {  # the questions that no check judges, in short
         *["does the interval grow", "would you sign", "something false"],
         *["At which margin", "choosing the margin"],
     ],
-    "10_worst_driver": ["a good one"],
+    "10_worst_driver": ["does diluting Prob close", "a good one"],
     "11_neighbours": ["How far are they apart"],
     "12_your_turn": ["common sense"],
 }
@@ -373,6 +373,29 @@ def test_each_question_has_a_blank_of_its_own(edition, request):
     assert len(words) == len(IN_WORDS.get(name, ()))
     for source, part in zip(words, IN_WORDS.get(name, ()), strict=True):
         assert part in source.replace("\n# ", " ")
+
+
+ASKED_AS_CODE = {"ex-4-2", "ex-8-1"}  # the "?" of these is what the function says
+
+
+def test_an_exercise_has_a_blank_for_each_question_mark(edition):
+    """Counted in the edition alone: code that is written answers no question."""
+    text = "".join(
+        cell.source if cell.cell_type == "markdown" else f"\n<cell>{cell.source}</cell>"
+        for cell in edition.cells
+    )
+    for part in re.split(r"^### Exercise ", text, flags=re.M)[1:]:
+        number = part.partition("\n")[0]
+        key = f"ex-{number.replace('.', '-')}"
+        asked = part.split("<cell>")[0]
+        asked = re.sub(
+            r"^```(?s:.*?)^```$|^    .*$|^\*\*.*\*\*$", "", asked, flags=re.M
+        )
+        cells = "\n".join(re.findall("<cell>(.*?)</cell>", part, re.S))
+        judged = [k for k in CHECKED.findall(cells) if k in OPEN or not KNOWN[k].cases]
+        blanks = len(judged) + cells.count("\nin_words = ...")
+
+        assert asked.count("?") <= blanks + (key in ASKED_AS_CODE), number
 
 
 def test_a_blank_for_a_value_says_first_what_is_asked_for(page):
