@@ -380,11 +380,13 @@ ASKED_AS_CODE = {"ex-4-2", "ex-8-1"}  # the "?" of these is what the function sa
 
 def test_an_exercise_has_a_blank_for_each_question_mark(edition):
     """Counted in the edition alone: code that is written answers no question."""
-    text = "".join(
-        cell.source if cell.cell_type == "markdown" else f"\n<cell>{cell.source}</cell>"
+    text = "\n".join(
+        cell.source if cell.cell_type == "markdown" else f"<cell>{cell.source}</cell>"
         for cell in edition.cells
     )
-    for part in re.split(r"^### Exercise ", text, flags=re.M)[1:]:
+    parts = re.split(r"^### Exercise ", text, flags=re.M)[1:]
+    assert len(parts) == len(re.findall("### Exercise", prose(edition)))
+    for part in parts:
         number = part.partition("\n")[0]
         key = f"ex-{number.replace('.', '-')}"
         asked = part.split("<cell>")[0]
