@@ -36,7 +36,7 @@ class Course:
     """What the pages say of each other."""
 
     titles: dict[str, str] = field(default_factory=dict)  # by name of the page
-    notebooks: set[str] = field(default_factory=set)  # names of pages to link to
+    notebooks: set[str] = field(default_factory=set)  # those with exercises: linked to
     equations: dict[str, int] = field(default_factory=dict)  # numbers by label
     headings: dict[str, str] = field(default_factory=dict)  # by the label above
     works: dict[str, tuple[str, str]] = field(default_factory=dict)  # authors, year
@@ -51,7 +51,8 @@ def read_course(book: Path) -> Course:
         texts[path.stem] = "\n".join(
             cell.source for cell in cells if cell.cell_type == "markdown"
         )
-        course.notebooks.add(path.stem)
+        if "{exercise-start}" in texts[path.stem]:
+            course.notebooks.add(path.stem)
         for label in NUMBERED.findall(texts[path.stem]):
             course.equations[label] = len(course.equations) + 1
     for name, text in texts.items():

@@ -12,6 +12,7 @@ A question that no ``check`` judges has a blank of its own.
 
 The text is plain Markdown (`plain_markdown`), and the first line of code says whose
 work it is.  What a page comes to is folded: it answers some of the exercises.
+A page without exercises has nothing to fill in, and is read in the book.
 """
 
 from __future__ import annotations
@@ -241,9 +242,9 @@ def main(arguments: list[str] | None = None) -> int:
     out = parser.parse_args(arguments).out
     out.mkdir(parents=True, exist_ok=True)
     course = read_course(BOOK)
-    for path in sorted(BOOK.glob("*.ipynb")):
-        notebook = student_edition(nbformat.read(path, as_version=4), course)
-        nbformat.write(notebook, out / path.name)
+    for name in sorted(course.notebooks):
+        page = nbformat.read(BOOK / f"{name}.ipynb", as_version=4)
+        nbformat.write(student_edition(page, course), out / f"{name}.ipynb")
     print(f"The student edition is in {out}")
     return 0
 
