@@ -28,6 +28,9 @@ DARK = ", ".join(
         'html[data-theme="dark"]',  # the built book
         'body[data-jp-theme-light="false"]',  # JupyterLab
         "body.vscode-dark",
+        # High contrast on light ground has both of these names.
+        "body.vscode-high-contrast:not(.vscode-high-contrast-light)",
+        'html[theme="dark"]',  # Colab
     )
 )
 # What the palette lacks: lines, grounds of controls, the strong end of a scale.

@@ -164,6 +164,29 @@ def test_bars_are_seen_in_high_contrast(open_scene, name):
     assert bar.evaluate("e => getComputedStyle(e).backgroundColor") != ground
 
 
+HIGH = "vscode-high-contrast"  # VS Code gives this name to its light form, too
+
+
+@pytest.mark.parametrize(
+    ("part", "name", "value", "scheme"),
+    [
+        ("documentElement", "data-theme", "dark", "dark"),  # the built book
+        ("documentElement", "theme", "dark", "dark"),  # Colab
+        ("body", "data-jp-theme-light", "false", "dark"),  # JupyterLab
+        ("body", "class", "vscode-dark", "dark"),
+        ("body", "class", HIGH, "dark"),
+        ("body", "class", f"{HIGH} {HIGH}-light", "light"),
+        ("body", "class", "vscode-light", "light"),
+    ],
+)
+def test_a_scene_is_dark_where_what_shows_it_is(open_scene, part, name, value, scheme):
+    tab = open_scene(bare(KINDS["hill"]))
+    tab.page.evaluate(f"document.{part}.setAttribute('{name}', '{value}')")
+    look = tab.root.evaluate("e => getComputedStyle(e).colorScheme")
+
+    assert look == scheme
+
+
 def test_a_placed_bet_is_a_line_that_opens_again(open_scene):
     tab = open_scene(bare(KINDS["hill"]))
     tab.pick("Bet first", "not always")
