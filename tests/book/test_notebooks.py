@@ -44,6 +44,12 @@ def test_all_cells_were_run_once_and_in_order(notebook):
         assert of_outputs <= {cell["execution_count"]}
 
 
+def test_a_page_asks_for_the_kernel_that_every_installation_has(notebook):
+    """Not one of an editor or of conda: their names are known on one machine only."""
+    assert notebook[1]["metadata"] == refresh_notebooks.METADATA
+    assert refresh_notebooks.METADATA["kernelspec"]["name"] == "python3"
+
+
 def test_a_page_stores_its_outputs(notebook):
     assert outputs(notebook[1]), "the outputs were stripped, so nothing is compared"
 
