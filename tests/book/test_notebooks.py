@@ -2,6 +2,7 @@
 
 import json
 import re
+from html import escape
 
 import nbformat
 import pytest
@@ -75,6 +76,14 @@ def test_every_picture_comes_with_a_description(notebook):
             alt = cell["metadata"].get("mystnb", {}).get("image", {}).get("alt", "")
             assert pictures == ["image/svg+xml"], "one figure per cell, as SVG"
             assert 40 <= len(alt) <= 300, f"cell {cell['id']}: {alt!r}"
+
+
+def test_where_a_picture_is_not_trusted_its_finding_stands(notebook):
+    """JupyterLab shows no SVG that another wrote, but the plain text beside it."""
+    for output in outputs(notebook[1]):
+        if svg := "".join(output.get("data", {}).get("image/svg+xml", "")):
+            text = "".join(output["data"]["text/plain"])
+            assert f'<svg role="img" aria-label="{escape(text)}"' in svg
 
 
 def test_a_widget_has_a_form_that_the_built_page_shows(notebook):
