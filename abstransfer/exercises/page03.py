@@ -231,6 +231,11 @@ def _never_explores(q_row, epsilon, rng):
     return epsilon_greedy(q_row, 0, rng)
 
 
+def _zero_is_none(q_row, epsilon, rng):
+    best = epsilon_greedy(q_row, 0, rng)
+    return best if best and rng.random() >= epsilon else rng.integers(len(q_row))
+
+
 def _own_luck(q_row, epsilon, rng):
     return epsilon_greedy(q_row, epsilon, np.random.default_rng())
 
@@ -372,6 +377,11 @@ def epsilon_greedy(q_row, epsilon, rng):
             "never explores",
             _never_explores,
             "In a share `epsilon` of the calls the values must not matter.",
+        ),
+        Wrong(
+            "action 0 is none",
+            _zero_is_none,
+            "Action 0 is an action as any other, but `if action:` is false for it.",
         ),
         Wrong(
             "luck of its own",
