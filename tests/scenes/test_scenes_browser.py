@@ -40,7 +40,7 @@ class Microscope:
 
     @property
     def slider(self):
-        return self.root.get_by_role("slider", name="Step")
+        return self.root.get_by_role("slider", name="Iteration")
 
     @property
     def step(self):
@@ -256,6 +256,26 @@ def test_a_moment_has_an_address(at_scenes):
     second.click("Reset")
     assert second.step == 111
     second.page.wait_for_function("!location.hash.includes('microscope.t=')")
+
+
+# The test says when a scene writes its address.
+LATE = """window.late = [];
+const later = window.setTimeout;
+window.setTimeout = (act, pause, ...rest) =>
+    pause === 400 ? (late.push(act), 0) : later(act, pause, ...rest);"""
+
+
+def test_a_link_is_followed_even_as_the_scene_writes_its_address(open_scene):
+    tab = open_scene(bare(scenes.Hill), first=LATE)
+    step = tab.root.get_by_role("slider", name="Iteration")
+    step.fill("7")
+    tab.page.wait_for_function("late.length")
+    write = "late.splice(0).forEach((act) => act())"
+    tab.page.evaluate(f"() => {{ location.hash = '#hill.t=3'; {write}; }}")
+    tab.settle()
+    assert step.input_value() == "3"
+    tab.page.evaluate(write)
+    assert tab.page.url.endswith("#hill.t=3")
 
 
 def test_two_kinds_of_scenes_on_a_page_bring_a_script_each(at_scenes):

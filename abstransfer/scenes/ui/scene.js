@@ -108,6 +108,7 @@ export function mount(element, name, spec, options = {}, { onChange, url = true 
 function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) {
   const id = idOf(element, name);
   const store = address.makeState(spec, options);
+  let addressed = address.addressOf(id); // what was read or written last
   const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
   const controls = []; // { name, show(value, bounds) }
   const [leaving, resetting] = [[], []];
@@ -126,7 +127,11 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
   }
   function writeUrl() {
     timer = clearTimeout(timer) ?? null;
-    if (!isLeft) address.toUrl(id, spec, store);
+    if (isLeft) return;
+    // A link was followed in this very moment: the scene follows first.
+    if (addressed === address.addressOf(id)) address.toUrl(id, spec, store);
+    else timer = setTimeout(writeUrl, PAUSE);
+    addressed = address.addressOf(id);
   }
   function redraw() {
     if (paint && !isLeft) frame ??= requestAnimationFrame(drawNow);
@@ -203,6 +208,7 @@ function mountOnce(element, name, spec, options, { onChange, url, sorry = "" }) 
   // What the address asks for: also that there is nothing any more, after a step back.
   function fromUrl() {
     const found = url && address.fromUrl(id, spec);
+    addressed = address.addressOf(id);
     if (found || (url && !location.hash)) {
       sorry = "";
       odd = forLecture.follow(found ?? {});

@@ -124,6 +124,15 @@ export function makeState(spec, options) {
 const isLocal = (spec, name) => (spec.local ?? []).includes(name);
 
 /**
+ * What the URL says of a scene, as text.
+ *
+ * @param {string} id
+ */
+export const addressOf = (id) =>
+  [...new URLSearchParams(location.hash.slice(1))]
+    .filter(([key]) => key.startsWith(`${id}.`)).join("&");
+
+/**
  * What the URL says of a scene; null if nothing.
  *
  * @param {string} id
