@@ -52,21 +52,6 @@ def test_no_building_is_cut_without_a_sign(visit, name):
     assert wrong == []
 
 
-def test_the_formula_of_a_sweep_is_whole_on_a_phone(visit):
-    page = visit().open("02_solving")
-    formula = "#equation-eq-backup > mjx-container"
-    page.wait_for_selector(formula)
-    page.set_viewport_size({"width": 360, "height": 900})
-    page.evaluate(PICTURES)
-    inside, room = page.evaluate(
-        "(at) => { const { scrollWidth, clientWidth } = document.querySelector(at);"
-        " return [scrollWidth, clientWidth]; }",
-        formula,
-    )
-
-    assert 0 < inside <= room
-
-
 # What a reader may ask for who reads with difficulty (WCAG 1.4.12).
 SPACED = """
 * { letter-spacing: 0.12em !important; word-spacing: 0.16em !important }
