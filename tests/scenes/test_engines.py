@@ -38,7 +38,15 @@ ASKED = [PRESSED, list(STATES)]
 # Press, wait until all have closed, and return all that is said: by scene.
 READ = """async ([pressed, closing]) => {
     const scenes = [...document.querySelectorAll(".abstransfer-scene")];
-    const wait = (time) => new Promise((f) => setTimeout(f, time));
+    const drawn = async () => {
+        for (const _ of [1, 2]) await new Promise(requestAnimationFrame);
+    };
+    // A table is written when its details say that they are open, some time later.
+    const open = (details) => new Promise((f) => {
+        if (details.open) return f();
+        details.addEventListener("toggle", f, { once: true });
+        details.open = true;
+    });
     const nameOf = (button) => button.getAttribute("aria-label") ?? button.textContent;
     const press = (scene, name) => {
         const of = (each) => nameOf(each).startsWith(name);
@@ -54,15 +62,16 @@ READ = """async ([pressed, closing]) => {
     const end = Date.now() + 600_000;
     const left = () => scenes.filter((scene) => isBusy(scene) || /…|Stop \\(/.test(
         scene.querySelector(".ab-body").textContent));
-    while ((left().length || Object.keys(waiting).length) && Date.now() < end) {
+    do {
         for (const [name, button] of Object.entries(waiting)) {
             const scene = document.querySelector(`[data-scene="${name}"]`);
             if (press(scene, button)) delete waiting[name];
         }
-        await wait(100);
-    }
-    for (const details of document.querySelectorAll(".ab-twin")) details.open = true;
-    await wait(500);
+        await new Promise((f) => setTimeout(f, 100));
+        await drawn(); // or what was closed before a press would count
+    } while ((left().length || Object.keys(waiting).length) && Date.now() < end);
+    await Promise.all([...document.querySelectorAll(".ab-twin")].map(open));
+    await drawn();
     const said = scenes.map((scene) => {
         const body = scene.querySelector(".ab-body").cloneNode(true);
         body.querySelectorAll("svg, option").forEach((each) => each.remove());
