@@ -8,26 +8,31 @@ import { optimalActions, optimalValues } from "../engine/solvers.js";
 export const [, ALL] = spec.fields.features.bounds; // a bit for each feature
 const Z = ALL + 1;
 
-// One task after the other: states (Z,) that are no goal, by abstract state, and
-// `suits` (Z, A), in how many an action is optimal (if asked for).
-export function* tally(map, isSolved) {
-  const found = { states: new Int32Array(Z), suits: isSolved && new Int32Array(A * Z) };
-  for (let task = 0; task < map.goals.length; task++) {
-    const tasks = navigationTasks(map, { keep: [task] });
-    const optimal = isSolved && optimalActions(tasks, optimalValues(tasks));
-    tasks.rho.forEach((z, s) => {
-      if (tasks.terminal[s]) return;
-      found.states[z]++;
-      if (isSolved) { for (let a = 0; a < A; a++) found.suits[A * z + a] += optimal[A * s + a]; }
-    });
-    yield found;
+// No task counted yet: states (Z,) that are no goal, by abstract state, and `suits`
+// (Z, A), in how many an action is optimal (if asked for).
+export const nothing = (isSolved) => ({
+  states: new Int32Array(Z),
+  suits: isSolved && new Int32Array(A * Z),
+});
+
+// Add a task of a building.
+export function tally({ states, suits }, map, task) {
+  const tasks = navigationTasks(map, { keep: [task] });
+  const optimal = suits && optimalActions(tasks, optimalValues(tasks));
+  for (let s = 0; s < tasks.nStates; s++) {
+    if (tasks.terminal[s]) continue;
+    const z = tasks.rho[s];
+    states[z]++;
+    if (suits) { for (let a = 0; a < A; a++) suits[A * z + a] += optimal[A * s + a]; }
   }
 }
 
 // The sums over abstract states (of `width` numbers each) that `mask` cannot tell apart.
 function merge(numbers, mask, width = 1) {
   const sums = new Int32Array(numbers.length);
-  numbers.forEach((n, i) => (sums[width * (Math.floor(i / width) & mask) + (i % width)] += n));
+  for (let i = 0; i < numbers.length; i++) {
+    sums[width * (Math.floor(i / width) & mask) + (i % width)] += numbers[i];
+  }
   return sums;
 }
 

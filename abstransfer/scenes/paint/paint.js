@@ -3,7 +3,7 @@
 
 import { parseMap } from "../engine/maps.js";
 import { FEATURES, navigationTasks } from "../engine/navigation.js";
-import { ALL, counts, looks, tally, wrong } from "./counts.js";
+import { ALL, counts, looks, nothing, tally, wrong } from "./counts.js";
 import { findings } from "./found.js";
 import { button, toggle } from "../ui/controls.js";
 import { make, place, plural } from "../ui/dom.js";
@@ -87,20 +87,22 @@ defineScene("paint", {
       }
       [counted, full, seen] = [{}, null, null];
       const jobs = [["away", away, false], ["home", home, false], ["home", home, true]].map(
-        ([name, { map }, isSolved]) => [name, tally(map, isSolved)],
+        ([name, { map }, isSolved]) => ({ name, map, found: nothing(isSolved), task: 0 }),
       );
       clearTimeout(timer);
-      timer = setTimeout(advance, 0, jobs, null);
+      timer = setTimeout(advance, 0, jobs);
     }
-    function advance(jobs, latest) {
+    function advance(jobs) {
       const end = performance.now() + 15;
       while (jobs.length && performance.now() < end) {
-        const { value, done } = jobs[0][1].next();
-        if (done) counted[jobs.shift()[0]] = latest;
-        else latest = value;
+        const [job] = jobs;
+        tally(job.found, job.map, job.task++);
+        if (job.task < job.map.goals.length) continue;
+        counted[job.name] = job.found;
+        jobs.shift();
       }
       const isNew = counted.home && !seen;
-      timer = jobs.length ? setTimeout(advance, 0, jobs, latest) : null;
+      timer = jobs.length ? setTimeout(advance, 0, jobs) : null;
       if (!timer) full = counts(counted.home, counted.away, ALL);
       if (!timer || isNew) show(scene.state);
       if (!timer) scene.redraw();
