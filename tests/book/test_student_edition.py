@@ -11,7 +11,7 @@ import student_edition
 from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from plain_markdown import Course, plain, read_course
-from student_edition import MARK, kept, stub, without_solutions
+from student_edition import MARK, kept, pieces, stub, without_solutions
 from support import ROOT
 
 from abstransfer.exercises import all_exercises, all_open_exercises
@@ -414,6 +414,20 @@ def test_a_blank_for_a_value_says_first_what_is_asked_for(page):
 def test_the_first_line_of_a_folded_solution_is_no_blank(page):
     for cell in blank_cells(page):
         assert not MARK.search(cell.source.partition("\n")[0])
+
+
+def test_words_of_a_solution_are_folded_behind_a_line_that_tells_nothing(page):
+    """In JupyterLab a cell is folded as a whole, to its first line."""
+    inside = False
+    for cell in page.cells:
+        if cell.cell_type == "markdown":
+            rest, still = without_solutions(cell.source, inside)
+            found = pieces(cell.source, inside)
+            inside = still
+            if any(is_solution and text.strip() for text, is_solution, _ in found):
+                assert cell.metadata.get("jupyter") == {"source_hidden": True}
+                assert re.match(r"```\{solution-start\}|% Words", cell.source)
+                assert rest == "", "what is no solution would be folded, too"
 
 
 # Those that run in seconds; in the night all: make nightly
