@@ -41,7 +41,7 @@ CONFIG = '''\
 c = get_config()
 c.CourseDirectory.course_id = "abstransfer"
 c.ClearSolutions.code_stub = {"python": "# Your code, in place of the dots."}
-c.Execute.timeout = 600  # seconds of a cell: a busy machine compiles for a minute
+c.Execute.timeout = 600  # seconds of a cell: 30 are few on a busy machine
 c.Execute.iopub_timeout = 60
 '''
 
