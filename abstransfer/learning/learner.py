@@ -117,7 +117,7 @@ def q_learning_runs(
     n_steps: int,
     *,
     rngs: Iterable,
-    q0s: Iterable[np.ndarray] | None = None,
+    q0s: Iterable[float | np.ndarray] | None = None,
     on_progress: Callable[[int], None] | None = None,
     **options,
 ) -> list[QLearningResult]:
@@ -126,7 +126,7 @@ def q_learning_runs(
 
     A run's result does not depend on its company, but three runs take half the
     time together: give them by threes.  `q0s` are the values to start from, one
-    table (S, A) a run, in place of `q0`.  Options: see :func:`q_learning`.
+    number or table (S, A) a run, in place of `q0`.  Options: see :func:`q_learning`.
     """
     learner = Learner(mdp, rngs=rngs, q0s=q0s, **options)
     learner.advance(n_steps, on_progress=on_progress)
@@ -164,10 +164,8 @@ class Learner:
         from . import _runs  # not before the first run: it loads the compiler
 
         _runs.say_if_compiling()
-        setup, threes = _runs.set_up(self.settings), len(seeds) // 3 * 3
-        runs = list(zip(seeds, tables, strict=True))
-        parts = [runs[i : i + 3] for i in range(0, threes, 3)]
-        parts += [[run] for run in runs[threes:]]
+        setup, runs = _runs.set_up(self.settings), list(zip(seeds, tables, strict=True))
+        parts = [runs[i : i + 3] for i in range(0, len(runs), 3)]
         self._parts = [_runs.Together(setup, part) for part in parts]
 
     def advance(
