@@ -119,12 +119,19 @@ def notes_after(
     if mdp.reward.min() < 0:
         raise ValueError(f"reward must not be negative, got {mdp.reward.min()}")
     rngs, way = list(rngs), ~mdp.terminal
-    options = {"rngs": rngs, "guide": guide, "tau": tau, "gamma": gamma}
-    runs = q_learning_runs(mdp, tau, **options)
     # While the guide decides alone, what is noted changes no step: the same
     # walk again, from notes that every update lowers, shows what was tried.
     above = 2 * mdp.reward.max() / (1 - gamma) + 1
-    walks = q_learning_runs(mdp, tau, q0=above, **options)
+    both = q_learning_runs(
+        mdp,
+        tau,
+        rngs=rngs * 2,
+        q0s=[0.0] * len(rngs) + [above] * len(rngs),
+        guide=guide,
+        tau=tau,
+        gamma=gamma,
+    )
+    runs, walks = both[: len(rngs)], both[len(rngs) :]
     game, best = _game(mdp, gamma)
     tried = [(run.q != above)[way][mdp.allowed[way]].mean() for run in walks]
     noted = [(run.q.max(axis=1) > 0)[way].mean() for run in runs]
