@@ -12,6 +12,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from scipy.sparse import csr_array, dia_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from ..learning import q_learning_runs
@@ -51,7 +52,7 @@ def arrival(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> Arrival:
     >>> found.arrived.tolist(), found.steps.tolist()  # 1 - 1/8; 1 + 1/2 + 1/4
     ([0.875, 1.0], [1.75, 0.0])
     """
-    moves = transition_matrix(mdp, check_policy(policy, mdp))
+    moves = _by_distance(transition_matrix(mdp, check_policy(policy, mdp)))
     n_steps = whole("n_steps", n_steps)
     on_the_way = np.where(mdp.terminal, 0.0, 1.0)
     steps = np.zeros(mdp.n_states)
@@ -59,6 +60,18 @@ def arrival(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> Arrival:
         steps += on_the_way
         on_the_way = moves @ on_the_way
     return Arrival(1 - on_the_way, steps)
+
+
+def _by_distance(moves: csr_array) -> csr_array | dia_array:
+    """
+    Return a matrix (S, S) by its diagonals, where most of them are well filled.
+
+    A building has few: its neighbours are a few distances apart.  A product with a
+    vector is the same to the bit, in half the time.
+    """
+    row, column = moves.tocoo().coords
+    distances = len(np.unique(column - row))
+    return moves.todia() if distances * moves.shape[0] <= 2 * moves.nnz else moves
 
 
 def can_arrive(mdp: MDP, policy: np.ndarray) -> np.ndarray:
@@ -193,7 +206,7 @@ def stuck(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> np.ndarray:
     >>> stuck(mdp, np.ones((2, 1)), n_steps=3).tolist()
     [0.125, 0.0]
     """
-    moves = transition_matrix(mdp, check_policy(policy, mdp)).T.tocsr()
+    moves = _by_distance(transition_matrix(mdp, check_policy(policy, mdp)).T.tocsr())
     share = np.where(mdp.terminal, 0.0, 1.0)
     share /= share.sum()
     for _ in range(n_steps):

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from abstransfer import MDP, navigation_tasks, read_map
-from abstransfer.experiments.diagnosis import arrival, can_arrive, notes_after
+from abstransfer.experiments.diagnosis import (
+    arrival,
+    can_arrive,
+    notes_after,
+    stuck,
+)
 from abstransfer.experiments.problem import Problem, target_tasks
 from abstransfer.learning import q_learning_runs
 from abstransfer.reproduction.guides import make_guides
@@ -49,6 +54,26 @@ def test_arrival_agrees_with_walking(guides):
 
     walked = np.mean([walk.goals.sum() for walk in walks])
     assert walked == pytest.approx(n * exact, rel=0.03)
+
+
+def test_states_may_be_numbered_in_any_order(guides):
+    """Neighbours a few distances apart are multiplied faster, and as all others."""
+    tasks = target_tasks(Problem())
+    mdp, policy = tasks.mdp, guides["beta-0"][tasks.rho]
+    order = np.random.default_rng(0).permutation(mdp.n_states)
+    mixed = MDP(
+        np.argsort(order)[mdp.next_state[order]],
+        mdp.prob[order],
+        mdp.reward[order],
+        mdp.terminal[order],
+        mdp.gamma,
+    )
+    found, again = arrival(mdp, policy, 100), arrival(mixed, policy[order], 100)
+
+    np.testing.assert_allclose(again.arrived, found.arrived[order], atol=1e-12)
+    np.testing.assert_allclose(again.steps, found.steps[order])
+    there = stuck(mdp, policy, 100)
+    np.testing.assert_allclose(stuck(mixed, policy[order], 100), there[order])
 
 
 def test_a_loop_of_chances_ends_and_a_closed_loop_does_not(corridor):
