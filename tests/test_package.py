@@ -85,6 +85,14 @@ def test_importing_the_package_loads_nothing_that_takes_time():
     assert not (HEAVY | {"numpy"}) & loaded
 
 
+def test_the_scenes_load_no_compiler_and_no_laws_of_chance():
+    loaded = loaded_after("import abstransfer\nabstransfer.scenes.Race")
+
+    assert "abstransfer.scenes.race.widget" in loaded
+    heavy = {"numba", "matplotlib", "scipy.optimize", "scipy.stats"}
+    assert not heavy & loaded
+
+
 def test_table_1_needs_scipy_and_nothing_else_that_is_heavy():
     loaded = loaded_after(
         "from abstransfer import navigation_tasks, parse_map, table1\n"

@@ -14,7 +14,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
 LEVEL = 0.95
 FEWEST = 5  # runs for an interval: fewer hardly know how much they vary
@@ -154,7 +153,9 @@ def quantile(n: int, level: float = LEVEL) -> float:
     >>> round(quantile(5), 3)
     2.776
     """
-    return float(stats.t.ppf((1 + level) / 2, n - 1))
+    from scipy.special import stdtrit  # slow to load
+
+    return float(stdtrit(n - 1, (1 + level) / 2))
 
 
 def _finite(x: np.ndarray) -> np.ndarray:

@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
 from .arms import ARMS, Arm
 from .results import Results
@@ -95,9 +94,11 @@ def _tune_arm(results: Results, name: str) -> Tuning:
 
 def _p_value(a: np.ndarray, b: np.ndarray) -> float:
     """Return the p-value of the paired t-test that a is no better than b, (N,)."""
+    from scipy.special import stdtr  # slow to load
+
     difference = a - b
     if len(difference) < 2 or not difference.any():
         return 1.0
     with np.errstate(divide="ignore"):  # a difference that never varies is certain
         t = difference.mean() / (difference.std(ddof=1) / len(difference) ** 0.5)
-    return float(stats.t.sf(t, len(difference) - 1))
+    return float(stdtr(len(difference) - 1, -t))

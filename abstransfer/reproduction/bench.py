@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import rivals
 from ..experiments.arms import SCALES, Arm, Scale
 from ..experiments.plan import SEED, STREAMS
 from ..experiments.problem import Problem, digest
@@ -29,7 +30,6 @@ from ..experiments.workers import SLICE, heed_stop
 from ..learning import Learner
 from ..learning.settings import whole
 from ..maps import read_map
-from ..rivals import learn_as
 from .buildings import draw_building
 from .neighbours import METHODS, Start, known
 
@@ -95,7 +95,7 @@ def _learn(case: Case, here, one: Start, q0s=None) -> np.ndarray:
     steps = case.scale.steps
     if one.rival:
         options |= {"rng": case.seed, "on_progress": heed_stop}
-        return learn_as(one.rival, mdp, steps, **options).goals
+        return rivals.learn_as(one.rival, mdp, steps, **options).goals
     options |= {"strategy": one.strategy, "tau": one.tau, "q0s": q0s}
     learner = Learner(mdp, rngs=[case.seed] * (len(q0s) if q0s else 1), **options)
     for first in range(0, steps, SLICE):

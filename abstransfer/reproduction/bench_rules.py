@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from scipy.stats import kendalltau
 
 from ..experiments.results import read_results
 from ..experiments.stats import rank_interval
@@ -47,6 +46,8 @@ def _short(name: str, **bounds: float) -> Callable[[Read], Iterable[Part]]:
 
 
 def _same_ladder(read: Read) -> Iterable[Part]:
+    from scipy.stats import kendalltau  # slow to load
+
     means = [
         [read(folder).totals(name).mean() for name in NAMES]
         for folder in (TARGET, DRAWN)

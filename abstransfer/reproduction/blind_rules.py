@@ -11,7 +11,6 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
-from scipy import stats
 
 from ..experiments.results import Results, read_results
 from ..experiments.stats import Interval, t_interval
@@ -148,8 +147,10 @@ def _variation(read: Read) -> Iterable[Part]:
 
 def _kendall(measure: np.ndarray, taught: np.ndarray) -> np.ndarray:
     """Return Kendall's rank correlation in each building, of two (robots, B)."""
+    from scipy.stats import kendalltau  # slow to load
+
     pairs = zip(measure.T, taught.T, strict=True)
-    return np.array([stats.kendalltau(*pair).statistic for pair in pairs])
+    return np.array([kendalltau(*pair).statistic for pair in pairs])
 
 
 def _operated(key: str) -> Callable[[Read], Iterable[Part]]:

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
 from .._paths import DATA
 from ..experiments.results import Results, read_results
@@ -333,13 +332,15 @@ def _drives(read: Read) -> Iterable[Part]:
 
 
 def _ready_tells(read: Read) -> Iterable[Part]:
+    from scipy.stats import kendalltau  # slow to load
+
     drawn = read("drawn")
     taught = np.array([drawn.totals(robot) for robot in FIVE])  # (5, N)
     tell = {}
     for measure in ("ready", "noted"):
         of = np.array([drawn.record[measure][robot] for robot in FIVE])
         pairs = zip(of.T, taught.T, strict=True)
-        tell[measure] = np.array([stats.kendalltau(*pair).statistic for pair in pairs])
+        tell[measure] = np.array([kendalltau(*pair).statistic for pair in pairs])
     means = {name: float(each.mean()) for name, each in tell.items()}
     text = "Kendall of ready {ready:.2f}, less of noted {noted:.2f}".format(**means)
     yield of_mean("drawn", text, tell["ready"] - tell["noted"], "")

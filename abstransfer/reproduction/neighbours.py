@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import rivals
+from .. import rivals  # its loops load the compiler: none is named before its use
 from ..builders import abstract_policies, count_votes
 from ..driving import advised
 from ..experiments.problem import Problem, target_tasks
@@ -276,7 +276,7 @@ METHODS = (
         "ND with chance psi, which fades in each episode; else epsilon-greedy",
         SHORT,
         (0.5, 0.8, 0.9, 0.95, 0.98, 0.99),
-        _guided(rivals.policy_reuse),
+        _guided(lambda v: rivals.policy_reuse(v)),
         "v",
     ),
     Method(
@@ -300,7 +300,7 @@ METHODS = (
         "ND begins each episode, for 0..H-1 steps",
         LONG,
         (10, 20, 40, 80, 160, 320),
-        _guided(rivals.jump_start),
+        _guided(lambda most: rivals.jump_start(most)),
         "H",
     ),
     Method(

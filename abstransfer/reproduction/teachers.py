@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import direct
 
 from ..abstraction import FEATURES
 
@@ -59,6 +58,8 @@ def search(teach: Callable[[str, int], float], budget: int = BUDGET) -> None:
     >>> tried[0], len(tried)
     (('mix-0.5-0.5-0.5', 2000000), 4)
     """
+    from scipy.optimize import direct  # slow to load
+
     left, least, most = budget, *np.log(TAU_RANGE)
 
     def loss(x):

@@ -7,8 +7,6 @@ from collections.abc import Callable
 import numpy as np
 import traitlets
 
-from ...learning import loop
-from ...learning._runs import RunState, set_up
 from ...learning.settings import Settings
 from ...navigation import NavigationTasks, navigation_tasks
 from ..base import MapTrait, Scene
@@ -115,6 +113,9 @@ def own_trace(tasks: NavigationTasks, q0: float, rng, update: Callable) -> list[
     Each is [state, action, how it was chosen, next state, reward, value before,
     value after, state the next step begins in].
     """
+    from ...learning import loop  # it loads the compiler
+    from ...learning._runs import RunState, set_up
+
     settings = Settings(tasks.mdp, q0=q0, trace=STEPS)
     setup = set_up(settings)
     run = RunState(setup, rng, settings.q0)
