@@ -188,9 +188,8 @@ def check_rows(prob: np.ndarray, name: str = "prob") -> None:
 
 
 def _refuse_first(bad: np.ndarray, rule: str, array: np.ndarray) -> None:
-    places = np.argwhere(bad)
-    if len(places):
-        place = tuple(places[0].tolist())
+    if bad.any():
+        place = tuple(np.argwhere(bad)[0].tolist())
         axes = ("state", "action", "outcome")
         where = ", ".join(f"{axis} {i}" for axis, i in zip(axes, place, strict=False))
         raise ValueError(f"{rule}: at {where} it was {array[place]}")
