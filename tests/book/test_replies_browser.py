@@ -1,7 +1,7 @@
 """The built pages reply: to bets, to their quiz, to links to a moment of the scene."""
 
 import pytest
-from support import drawn
+from support import Visit, drawn
 from test_bets import BETS, PAGES, plain
 from test_moments import links
 
@@ -29,9 +29,30 @@ def opened(visit):
     return open_page
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_bet_is_placed_by_keyboard_folds_and_is_replied_to(opened, name):
-    page, tab = opened(name)
+@pytest.fixture(scope="module")
+def one(html, chromium):
+    context = chromium.new_context(viewport={"width": 1440, "height": 900})
+    visit = Visit(context)
+    visit.folder = html
+    yield visit
+    context.close()
+
+
+@pytest.fixture(scope="module")
+def shown(one, request):
+    """A page of the book, opened once for all that is asked of it: its name, its tab."""
+    one.problems.clear()
+    drawn(one.open(request.param))
+    return request.param, one
+
+
+each_page = pytest.mark.parametrize("shown", NAMES, indirect=True)
+
+
+@each_page
+def test_a_bet_is_placed_by_keyboard_folds_and_is_replied_to(shown):
+    name, tab = shown
+    page = tab.page
     for bet in BETS[name]:
         box, reply = (
             page.locator(f"#{kind}{bet.name.removeprefix('bet-')}")
@@ -54,9 +75,12 @@ def test_a_bet_is_placed_by_keyboard_folds_and_is_replied_to(opened, name):
     assert tab.problems == []
 
 
-@pytest.mark.parametrize("name", [n for n in NAMES if any(b.asks for b in BETS[n])])
-def test_a_scene_and_its_page_say_a_bet_in_the_same_words(opened, name):
-    page, tab = opened(name)
+@pytest.mark.parametrize(
+    "shown", [n for n in NAMES if any(b.asks for b in BETS[n])], indirect=True
+)
+def test_a_scene_and_its_page_say_a_bet_in_the_same_words(shown):
+    name, tab = shown
+    page = tab.page
     for bet in (b for b in BETS[name] if b.asks):
         box = page.locator(f"#{bet.name}")
         for index in range(len(bet.options)):
@@ -89,9 +113,10 @@ def test_a_bet_and_a_choice_are_kept_and_forgotten(opened):
     assert tab.problems == []
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_each_link_changes_the_scene_and_back_returns(opened, name):
-    page, tab = opened(name)
+@each_page
+def test_each_link_changes_the_scene_and_back_returns(shown):
+    name, tab = shown
+    page = tab.page
     page.evaluate("window.isSame = true")
     assert links(PAGES[NAMES.index(name)])
     page.evaluate(UNFOLDED)
