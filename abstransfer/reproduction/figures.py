@@ -118,9 +118,9 @@ def finished_experiments(folder: str | Path) -> dict[str, Results]:
 
 
 def nine_arms(results: Results) -> Results | None:
-    """Return the nine arms of Figures 3 and 4 alone; None where one is missing."""
+    """Return the nine arms of Figures 3 and 4 alone; None without them or curves."""
     names = [arm.name for arm in results.arms]
-    if not {arm.name for arm in ARMS} <= set(names):
+    if not {arm.name for arm in ARMS} <= set(names) or results.goals.shape[2] == 1:
         return None
     places = [names.index(arm.name) for arm in ARMS]
     arms = tuple(results.arms[i] for i in places)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from abstransfer._paths import DATA
 from abstransfer.experiments import store
 from abstransfer.experiments.arms import ARMS, Arm, Scale, tau_cells
 from abstransfer.experiments.plan import make_plan, parameters
@@ -18,6 +19,7 @@ from abstransfer.experiments.results import (
     stored_results,
 )
 from abstransfer.experiments.stats import Interval
+from abstransfer.reproduction import figures
 from abstransfer.reproduction.claims import CLAIMS, ledger
 from abstransfer.reproduction.figures import (
     effect_text,
@@ -141,7 +143,7 @@ def test_the_ledger_has_every_claim_under_every_convention(made):
 
 
 def test_each_reading_has_a_ledger_and_a_finer_grid_its_name(tmp_path):
-    """Controls beside the nine arms are left out; what holds fewer, too."""
+    """Controls beside the nine arms are left out, and what lacks arms or curves."""
     goal, compass = Problem(), Problem(actions="compass")
     hint = Arm("hint", None, "hard", 0, 1e-12)
     made = {
@@ -150,6 +152,9 @@ def test_each_reading_has_a_ledger_and_a_finer_grid_its_name(tmp_path):
         "few": made_up((ARMS[0], hint), 5, Problem(unavailable="masked")),
         "fine": made_up(tau_cells(ARMS[3:4], (3_000_000, 4_000_000)), 5, goal),
     }
+    whole = make_plan(ARMS, goal, Scale(30_000_000, 30_000_000), 5, guides=GUIDES)
+    totals = made["goal"].goals.sum(axis=2, keepdims=True)
+    made["curveless"] = Results(ARMS, totals, {"parameters": parameters(whole)})
     for name, each in made.items():
         save_results(tmp_path / name, each)
     written = {path.name for path in make_figures(tmp_path, tmp_path / "out")}
@@ -159,7 +164,7 @@ def test_each_reading_has_a_ledger_and_a_finer_grid_its_name(tmp_path):
     }
     rows = read(tmp_path / "out" / "figure3-compass.csv")
     assert [row["arm"] for row in rows] == [arm.name for arm in ARMS]
-    assert not any("few" in name for name in written)
+    assert not any("few" in name or "curveless" in name for name in written)
     names = {row["experiment"] for row in read(tmp_path / "out" / "tau.csv")}
     assert names == {"goal, target, finer grid"}
     first = read(tmp_path / "out" / "ledger-compass.csv")[0]
@@ -219,6 +224,17 @@ def test_a_folder_of_one_experiment_will_do(results, tmp_path):
     written = make_figures(results / "goal", tmp_path)
 
     assert tmp_path / "figure3-goal.svg" in written
+
+
+def test_tables_are_made_of_all_that_is_stored(monkeypatch, tmp_path):
+    """The command of the README; its pictures, which take long, are left out."""
+    for name in ("figure3", "figure4", "tau_figure"):
+        monkeypatch.setattr(figures, name, lambda found: found)
+    monkeypatch.setattr(figures, "_write_picture", lambda *arguments: None)
+    written = {path.name for path in make_figures(DATA / "results", tmp_path)}
+
+    assert {"measures-goal-target.csv", "measures-cost-target.csv"} <= written
+    assert {"tau.csv", "ledger.md", "ledger-compass.md", "ledger-masked.md"} <= written
 
 
 def test_no_results_is_an_error_that_says_how_to_make_some(tmp_path):
