@@ -66,7 +66,10 @@ CUT = """() => [...document.querySelectorAll("svg.ab-chart text")].flatMap((text
 })"""
 
 
-@pytest.mark.parametrize("name", ["03_learning", "07_driving_test", "08_advice"])
+@pytest.mark.parametrize(
+    "name",
+    ["03_learning", "07_driving_test", "08_advice", "10_worst_driver", "11_neighbours"],
+)
 def test_letters_may_stand_wider_apart(visit, name):
     page = visit().open(name)
     page.wait_for_function(LIVE)
