@@ -84,15 +84,27 @@ def test_every_pin_is_of_something_that_is_needed_and_every_need_is_pinned():
     }
 
 
+def git(*arguments):
+    """Return what git says of the repository."""
+    said = subprocess.run(
+        ["git", *arguments], cwd=ROOT, capture_output=True, encoding="utf-8"
+    )
+    if said.returncode > 1:
+        pytest.skip("this is no git repository")
+    return said.stdout
+
+
 def test_the_address_of_the_repository_stands_in_one_place():
     (address,) = PROJECT["urls"].values()
-    listed = subprocess.run(
-        ["git", "grep", "-lF", address], cwd=ROOT, capture_output=True, encoding="utf-8"
-    )
-    if listed.returncode > 1:
-        pytest.skip("this is no git repository")
 
-    assert listed.stdout.split() == ["pyproject.toml"]
+    assert git("grep", "-lF", address).split() == ["pyproject.toml"]
+
+
+def test_a_text_has_the_same_bytes_wherever_it_is_checked_out():
+    """Git for Windows ends lines otherwise, and page 9 prints what identifies files."""
+    path = "data/hypotheses.md"
+
+    assert git("check-attr", "eol", path) == f"{path}: eol: lf\n"
 
 
 # How a stranger checks it
