@@ -106,7 +106,7 @@ nightly: .venv/.book system
 	$(BIN)/python scripts/class_trial.py build/trial
 	$(PYTHON) -m venv .venv/graders
 	.venv/graders/bin/python -m pip install --quiet -c constraints.txt -e ".[book,grading]"
-	GRADERS=$(HERE)/.venv/graders/bin $(BIN)/python -m pytest --quiet \
+	GRADERS="$(HERE)/.venv/graders/bin" $(BIN)/python -m pytest --quiet \
 	  tests/classroom/test_graders.py
 	$(PIP) uv
 	for version in $(PYTHONS); do \
