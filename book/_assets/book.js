@@ -13,8 +13,13 @@ addEventListener("DOMContentLoaded", () => {
   }
 });
 
-// What is late comes when the page was drawn once.
-addEventListener("DOMContentLoaded", () => requestAnimationFrame(() => setTimeout(load)));
+// What is late comes when the page was drawn once; drawn, not only asked to be.
+addEventListener("DOMContentLoaded", () => {
+  new PerformanceObserver((_, painted) => {
+    painted.disconnect();
+    load();
+  }).observe({ type: "paint", buffered: true });
+});
 function load() {
   for (const { src } of document.querySelectorAll("script[type='text/later']")) {
     document.head.append(Object.assign(document.createElement("script"), { src }));

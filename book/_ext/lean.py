@@ -3,10 +3,13 @@ A Sphinx extension that makes the pages light, and lets them live under strict p
 
 Before it draws anything a page waits for its scripts and its styles.  Here the scripts
 come after the page, in their order; what the theme wrote into each page as a script
-goes to one file, for a server may forbid scripts in pages; and the styles lose the
-rules for what is in no page, which are three quarters of the theme's.
+goes to one file, for a server may forbid scripts in pages; fifteen styles are one, and
+lose the rules for what is in no page, which are three quarters of the theme's; and
+pictures come when the reader is near, in the room that was kept for them.
 """
 
+import hashlib
+import posixpath
 import re
 from pathlib import Path
 
@@ -20,6 +23,15 @@ UNUSED = ("thebe", "kernelName", "DOCUMENTATION_OPTIONS", "searchInput")
 LOADED = re.compile(r"<script (?![^>]*\b(?:defer|async)\b)([^>]*\bsrc=)")
 # A megabyte for formulas: `book.js` loads it when the page was drawn.
 LATE = re.compile(r'<script defer(?:="defer")? (src="[^"]*/mathjax/)')
+# Of scripts that come after the page anyway: they would come before its styles.
+EARLY = re.compile(r'<link rel="preload" as="script"[^>]*>\n?')
+STYLE = re.compile(
+    r'[ ]*<link(?=[^>]*\brel="stylesheet")[^>]*\bhref="([^"?]+)[^>]*>\n?'
+)
+IMPORT = re.compile(r"@import\s*[\"']([^\"']+)[\"'];")
+PICTURE = re.compile(r'<img (?!loading)(?=[^>]*\bsrc="(_images/[^"]+\.svg)")')
+SIZE = re.compile(r'<svg[^>]*\bwidth="([\d.]+)pt" height="([\d.]+)pt"')
+ADDRESS = re.compile(r"url\(([\"']?)(?!data:|#|/)([^\"')]+)\1\)")
 INLINE = re.compile(r"<script(?![^>]*\bsrc=)([^>]*)>(.*?)</script>", re.DOTALL)
 CLICKED = re.compile(r' onclick="(?:window\.)?(\w+)\(\)"')
 WORD = re.compile(r"[\w-]+")
@@ -42,23 +54,72 @@ def lighten(app, exception):
     """Rewrite the pages and the style sheets of the built book."""
     if exception is not None or app.builder.format != "html":
         return
-    out, settings = Path(app.outdir), [KEPT]
-    for page in sorted(out.glob("*.html")):
-        text = page.read_text(encoding="utf-8")
+    out, settings, pages = Path(app.outdir), [KEPT], {}
+    for path in sorted(out.glob("*.html")):
+        text = path.read_text(encoding="utf-8")
         if OF_THEME in text:
-            text = without_inline(text, settings)
-            page.write_text(text, encoding="utf-8", newline="\n")
+            text = without_inline(EARLY.sub("", text), settings)
+            pages[path] = PICTURE.sub(lambda found: with_room(out, found), text)
     text = "".join(f"{body}\n" for body in settings)
     Path(out, SETTINGS).write_text(text, encoding="utf-8", newline="\n")
     for file in Path(out, "_static", "scripts").glob("fontawesome.js*"):
         file.unlink()
-    known = set()
-    for path in [*out.glob("*.html"), *Path(out, "_static").glob("**/*.js")]:
+    of_scripts = set()
+    for path in Path(out, "_static").glob("**/*.js"):
         if "mathjax" not in path.parts:
-            known.update(WORD.findall(path.read_text(encoding="utf-8")))
-    for path in Path(out, "_static").glob("**/*.css"):
-        text = path.read_text(encoding="utf-8")
-        path.write_text(needed(text, known), encoding="utf-8", newline="\n")
+            of_scripts.update(WORD.findall(path.read_text(encoding="utf-8")))
+    alike = {}  # pages, by the styles that they load
+    for path, text in pages.items():
+        alike.setdefault(tuple(STYLE.findall(text)), []).append(path)
+    for sheets, paths in alike.items():
+        known = of_scripts.union(*(WORD.findall(pages[path]) for path in paths))
+        name = write_style(out, sheets, known)
+        for path in paths:
+            text = with_one_style(pages[path], name)
+            path.write_text(text, encoding="utf-8", newline="\n")
+
+
+def with_room(out: Path, found: re.Match) -> str:
+    """Return the begin of a picture that is loaded late, and has its room before."""
+    size = SIZE.search(Path(out, found[1]).read_text(encoding="utf-8"))
+    width, height = (round(float(points) * 4 / 3) for points in size.groups())
+    return f'<img loading="lazy" width="{width}" height="{height}" '
+
+
+def write_style(out: Path, sheets: tuple[str, ...], known: set[str]) -> str:
+    """Write one style sheet instead of several; return its address."""
+    text = needed("".join(read_style(out, sheet) for sheet in sheets), known)
+    name = hashlib.sha256(text.encode()).hexdigest()[:12]
+    address = f"_static/styles/page-{name}.css"
+    Path(out, address).write_text(text, encoding="utf-8", newline="\n")
+    return address
+
+
+def read_style(out: Path, sheet: str) -> str:
+    """Return a style sheet and what it imports, for a place in ``_static/styles``."""
+    folder = posixpath.dirname(sheet)
+    text = Path(out, sheet).read_text("utf-8").removeprefix('@charset "UTF-8";')
+
+    def moved(found):
+        address = posixpath.relpath(posixpath.join(folder, found[2]), "_static/styles")
+        return f"url({found[1]}{address}{found[1]})"
+
+    def imported(found):
+        return read_style(out, posixpath.normpath(posixpath.join(folder, found[1])))
+
+    return IMPORT.sub(imported, ADDRESS.sub(moved, COMMENT.sub("", text))) + "\n"
+
+
+def with_one_style(page: str, address: str) -> str:
+    """
+    Return a page that loads one style sheet in the place of its first.
+
+    >>> page = '<link rel="stylesheet" href="a?v=1"><link href="b" rel="stylesheet">'
+    >>> with_one_style(page, "c.css")
+    '<link rel="stylesheet" href="c.css">'
+    """
+    one = iter([f'<link rel="stylesheet" href="{address}">'])
+    return STYLE.sub(lambda _: next(one, ""), page)
 
 
 def without_inline(page: str, settings: list[str]) -> str:

@@ -12,8 +12,11 @@ from pathlib import Path
 from sphinx.util.fileutil import copy_asset
 
 PACKAGE = "sphinx-mathjax-offline"  # holds MathJax 3.2.2
-# What a page can load; the other bundles in the package are 20 MB of doubles.
-PARTS = ("tex-chtml.js", "a11y", "input/tex/extensions", "output/chtml")
+# What a page can load; the bundles in the package are 20 MB of doubles, and the page
+# would stand still while it reads one: so it loads these, after the first.
+LOADED = ("core", "input/tex", "output/chtml", "a11y/assistive-mml", "ui/menu")
+SCRIPTS = ("startup.js", *(f"{name}.js" for name in LOADED))
+PARTS = (*SCRIPTS, "a11y", "input/tex/extensions", "output/chtml")
 
 
 def copy_mathjax(app, exception):
@@ -44,4 +47,8 @@ def setup(app):
 
 
 def set_path(app, config):
-    config.mathjax_path = "mathjax/tex-chtml.js"
+    config.mathjax_path = "mathjax/startup.js"
+    config.mathjax3_config = {
+        **(config.mathjax3_config or {}),
+        "loader": {"load": list(LOADED)},
+    }

@@ -151,7 +151,26 @@ def test_a_page_waits_for_few_scripts_and_styles(html):
         ]
 
         assert 0 < weight[0] < 2_000, scripts
-        assert 0 < weight[1] < 250_000, styles
+        assert len(styles) == 1  # each is a way to the server and back
+        assert 0 < weight[1] < 180_000, styles
+
+
+def test_a_picture_comes_late_into_the_room_that_was_kept_for_it(html):
+    found = [
+        tag
+        for name in PAGES
+        for tag in soup(html / f"{name}.html").find("article").find_all("img")
+    ]
+
+    assert len(found) > 20
+    for tag in found:
+        size = re.search(
+            r'viewBox="0 0 ([\d.]+) ([\d.]+)"', (html / tag["src"]).read_text("utf-8")
+        )
+        width, height = (float(points) * 4 / 3 for points in size.groups())
+        assert tag["loading"] == "lazy"
+        assert int(tag["width"]) == pytest.approx(width, abs=1)
+        assert int(tag["height"]) == pytest.approx(height, abs=1)
 
 
 def is_place(page, name):
