@@ -155,6 +155,15 @@ def test_a_page_waits_for_few_scripts_and_styles(html):
         assert 0 < weight[1] < 180_000, styles
 
 
+def test_a_page_has_an_icon_and_a_description_and_no_script_of_icons(html):
+    for name in PAGES:
+        head = soup(html / f"{name}.html").head
+
+        assert (html / head.find("link", rel="icon")["href"]).is_file()
+        assert len(head.find("meta", attrs={"name": "description"})["content"]) > 40
+        assert "fontawesome.js" not in str(head)  # 1.5 MB; a font has them too
+
+
 def test_a_picture_comes_late_into_the_room_that_was_kept_for_it(html):
     found = [
         tag

@@ -122,6 +122,20 @@ def test_a_finger_moves_a_slider_and_a_tap_too(open_scene):
     assert f"hill.q={moved:g}" in tab.url_with(f"hill.q={moved:g}")
 
 
+@pytest.mark.parametrize("name", ["race", "studio"])
+def test_letters_of_a_field_are_large_enough_that_a_phone_does_not_zoom_in(
+    open_scene, name
+):
+    tab = open_scene(bare(KINDS[name]), width=400, has_touch=True, is_mobile=True)
+    sizes = tab.root.evaluate(
+        "e => [...e.querySelectorAll('select, input, textarea')]"
+        ".map((field) => parseFloat(getComputedStyle(field).fontSize))"
+    )
+
+    assert len(sizes) > 1
+    assert min(sizes) >= 16
+
+
 def large():
     """A building of one room, 40 x 40 cells: solving it waits to be asked for."""
     rows = ["|" + " " * 79 + "|"] * 79
