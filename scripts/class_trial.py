@@ -166,7 +166,7 @@ def main(arguments: list[str] | None = None) -> int:
     page = nbformat.read(BOOK / f"{PAGE}.ipynb", as_version=4)
     wanted = hand_in(folder, options.students, student_edition(page, read_course(BOOK)))
     kept = table.with_suffix(".jsonl")
-    mark = ("collect", folder, "--csv", table, "--cell-seconds", 60)
+    mark = ("collect", folder, "--csv", table)
     started = time.monotonic()
     used = call(*mark, killed_after=kept)
     done = len(kept.read_text("utf-8").splitlines())
@@ -190,7 +190,7 @@ def main(arguments: list[str] | None = None) -> int:
     print(
         f"  {sum(bool(row['predictions']) for row in rows):3}  with a sealed prediction"
     )
-    print("\nRight answers: ", Counter(int(row["right"]) for row in rows))
+    print("\nRight answers: ", Counter(int(row["right answers"]) for row in rows))
     print("\nThe commonest mistakes:")
     for row in rows_of(table.with_name("marks_misconceptions.csv"))[:10]:
         print(

@@ -22,7 +22,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from .._interrupts import ends_in_time, interrupts_noted
-from ..exercises._model import first_of, page_of
+from ..exercises._model import all_exercises, first_of, page_of
+from .handed_in import handed_in
 
 LAST = ("predictions", "cards", "same code as")
 SHOWN = {"not checked": "answered", "no answer yet": "", "hint": ""}
@@ -64,7 +65,7 @@ def collect(
         If there is no notebook in the folder.
     """
     folder, table = Path(folder), Path(table)
-    paths = [p for p in sorted(folder.rglob("*.ipynb")) if _is_handed_in(p, folder)]
+    paths = handed_in(folder, "*.ipynb")
     if not paths:
         raise ValueError(f"{folder} holds no notebook")
     kept = table.with_suffix(".jsonl")
@@ -92,10 +93,6 @@ def shut_off() -> list[str]:
         return []
     works = subprocess.run([*words, "true"], capture_output=True).returncode == 0
     return words if works else []
-
-
-def _is_handed_in(path: Path, folder: Path) -> bool:
-    return not any(part.startswith(".") for part in path.relative_to(folder).parts)
 
 
 def _run(path, shut, seconds, cell_seconds, megabytes) -> dict:
@@ -159,7 +156,7 @@ def _rows(found: list[dict]) -> Iterable[list]:
     keys = sorted(
         keys | {key for s in found for key in s.get("replies", ())}, key=_order
     )
-    yield ["student", "file", "outcome", "right", *keys, *LAST]
+    yield ["student", "file", "outcome", "right answers", *keys, *LAST]
     first = {}  # by digest, the first file with this code
     for said in found:
         replies, asked = said.get("replies", {}), said.get("asked", ())
@@ -189,12 +186,13 @@ def _mistakes(found: list[dict]) -> Iterable[list]:
         for key, (_, mistake) in said.get("replies", {}).items()
         if mistake
     )
-    yield ["exercise", "misconception", "students", "of", "reread"]
+    tasks = {exercise.key: exercise.task for exercise in all_exercises()}
+    yield ["exercise", "misconception", "students", "of", "reread", "what was asked"]
     for (key, mistake), n in sorted(
         counts.items(), key=lambda x: (-x[1], _order(x[0][0]))
     ):
         of = sum(key in said.get("asked", ()) for said in found)
-        yield [key, mistake, n, of, f"page {page_of(key)}"]
+        yield [key, mistake, n, of, f"page {page_of(key)}", tasks.get(key, "")]
 
 
 def _write(path: Path, rows: Iterable[list]) -> None:

@@ -8,6 +8,7 @@ import ast
 import hashlib
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 from ..project.card import TITLE, verify
 
@@ -25,6 +26,17 @@ OPENED = re.compile(
     r"\bex-\d+-\d+[b-z]?: (as predicted|refuted)\. Sealed ([0-9a-f]{8})"
 )
 ASKED = re.compile(r'\bcheck\(\s*["\'](ex-\d+-\d+[b-z]?)["\']')
+
+
+def handed_in(folder: Path, kind: str = "*") -> list[Path]:
+    """Return the files of a folder, at any depth, in order; none that is hidden."""
+    paths = (path.relative_to(folder) for path in folder.rglob(kind))
+    return sorted(
+        folder / path
+        for path in paths
+        if not any(part.startswith(".") for part in path.parts)
+        and (folder / path).is_file()
+    )
 
 
 def code_of(notebook) -> list[str]:

@@ -16,7 +16,7 @@ import numpy as np
 from ..experiments.stats import Interval, t_interval
 from ..project.card import TITLE, verify
 from ..project.student import building_of, seed_of
-from .handed_in import texts_of
+from .handed_in import handed_in, texts_of
 
 KINDS = (".ipynb", ".md", ".txt", ".eml")
 
@@ -25,7 +25,7 @@ class Pooled(NamedTuple):
     """What the cards of a class say of a claim."""
 
     gains: dict[str, float]  #: by student, the share of goals above the other's
-    left_out: dict[str, str]  #: by file or student, why a card does not count
+    left_out: dict[str, str]  #: by file or student, why nothing of it counts
     interval: Interval  #: of the mean gain over buildings
     verdict: str  #: "holds", "does not hold" or "undecided"
 
@@ -40,6 +40,8 @@ def pool(
 ) -> Pooled:
     """
     Test on the cards of a folder that a robot's gain over another exceeds a margin.
+
+    A file without a card is told, too: nothing that was handed in is lost.
 
     Parameters
     ----------
@@ -57,11 +59,14 @@ def pool(
     ValueError
         If no card counts.
     """
-    gains, left_out = {}, {}
-    for path in sorted(Path(folder).rglob("*")):
-        for card in _cards(path) if path.suffix in KINDS else ():
-            name = path.name
+    folder, gains, left_out = Path(folder), {}, {}
+    for path in handed_in(folder):
+        file = path.relative_to(folder).as_posix()
+        for card in _cards(path) or [""]:
+            name = file
             try:
+                if not card:
+                    raise ValueError(_no_card(path))
                 [found] = verify(card)
                 name = found.setup.student or name
                 gain = _gain(found, robot, over)
@@ -84,6 +89,12 @@ def pool(
     return Pooled(gains, left_out, interval, verdict)
 
 
+def _no_card(path: Path) -> str:
+    if path.suffix in KINDS:
+        return "it holds no card"
+    return f"cards are read from {', '.join(KINDS)} only"
+
+
 def _gain(found, robot: str, over: str) -> float:
     setup, goals = found.setup, found.race.goals
     if not setup.student:
@@ -100,6 +111,8 @@ def _gain(found, robot: str, over: str) -> float:
 
 def _cards(path: Path) -> list[str]:
     """Return the cards of a file, each as a text; the same text counts once."""
+    if path.suffix not in KINDS:
+        return []
     text = path.read_text("utf-8-sig", errors="replace")
     if path.suffix == ".ipynb":
         import nbformat

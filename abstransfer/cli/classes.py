@@ -30,7 +30,9 @@ def add_options(parser) -> None:
     add_option(part, "robot", "nd", "whose gain")
     add_option(part, "over", "none", "compared with whom")
     add_option(part, "margin", 0.0, "the claim: the gain is above this share")
-    part.add_argument("--figure", metavar="FILE", type=Path, help="picture to write")
+    part.add_argument(
+        "--figure", metavar="FILE", type=Path, help="picture to write, such as wall.png"
+    )
 
 
 def run(arguments) -> int:
@@ -48,6 +50,8 @@ def _pool(arguments) -> int:
     gains = list(found.gains.values())
     claim = f"more than {100 * arguments.margin:g} % over {arguments.over}"
     print(describe_pool(gains, found.interval, **names))
+    if found.left_out:
+        print(f"Left out, as said above: {', '.join(found.left_out)}.")
     print(f"The claim that {arguments.robot} gains {claim}: {found.verdict}.")
     if arguments.figure:
         figure(plot_pool, gains, found.interval, **names).save(arguments.figure)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .style import WIDTH, new_axes
+from .style import PALETTE, SMALL, WIDTH, new_axes
 
 
 def plot_pool(gains: Sequence[float], interval, ax=None, *, robot="", over=""):
@@ -34,9 +34,31 @@ def plot_pool(gains: Sequence[float], interval, ax=None, *, robot="", over=""):
     ax.axhline(100 * interval.estimate, color="#D55E00")
     if np.isfinite(interval.low):
         ax.axhspan(100 * interval.low, 100 * interval.high, color="#D55E00", alpha=0.2)
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.35 * (high - low))  # room for the words
+    place = {"xy": (0.02, 0.98), "xycoords": "axes fraction", "va": "top"}
+    ax.annotate(_found(percent / 100, interval), size=SMALL, **place)
+    ax.xaxis.get_major_locator().set_params(integer=True)
     ax.set_xlabel("buildings, one a student, in order of the gain")
-    ax.set_ylabel(f"goals of {robot} over {over}, in %")
+    ax.set_ylabel(f"goals of {_name(robot)} over {_name(over)}, in %")
     return ax
+
+
+def _name(robot: str) -> str:
+    """Return the name of a robot of the cards as the book writes it."""
+    if robot == "none":
+        return "no advice"
+    return PALETTE["arms"].get(robot, {"name": robot})["name"]
+
+
+def _found(gains: Sequence[float], interval) -> str:
+    """Return in words what the points, the line and the band say."""
+    mean, low, high = (100 * end for end in interval)
+    band = "too few buildings for an interval"
+    if np.isfinite(low):
+        band = f"band: its 95 % interval, {low:+.1f} to {high:+.1f} %"
+    above = f"points: {sum(g > 0 for g in gains)} of {len(gains)} above 0"
+    return f"line: mean {mean:+.1f} %\n{band}\n{above}"
 
 
 def describe_pool(gains: Sequence[float], interval, *, robot="", over="") -> str:

@@ -188,7 +188,7 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
         "-",
     ]
     assert [row["ex-1-2"] for row in rows] == wanted
-    assert [row["right"] for row in rows] == ["1", "1", "1", "0", "0", "0", "0"]
+    assert [row["right answers"] for row in rows] == ["1", "1", "1", "0", "0", "0", "0"]
     sealed = "ex-10-1 6412c89f, direction +, at least 0.05: as predicted"
     assert [row["predictions"] for row in rows] == [sealed, *[""] * 6]
     assert [row["same code as"] for row in rows] == ["", "", "2_bob.ipynb", *[""] * 4]
@@ -199,6 +199,8 @@ def test_a_class_is_run_and_each_notebook_has_a_row_with_a_word(tmp_path):
             "students": "1",
             "of": "5",
             "reread": "page 1",
+            "what was asked": "With discount 0.99 and a cost of 1 per step, what does "
+            "a robot pay that never arrives?",
         }
     ]
     assert before == {path: path.read_bytes() for path in folder.iterdir()}

@@ -77,6 +77,22 @@ def test_a_card_that_does_not_count_is_left_out_with_a_word(tmp_path):
     assert found.left_out["ANN"] == "a second card of this student"
 
 
+def test_a_file_without_a_card_is_told_wherever_it_lies(tmp_path):
+    for folder in ("ann", "bob", "cy", ".ipynb_checkpoints"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "ann" / "card.md").write_text(card("Ann"), encoding="utf-8")
+    (tmp_path / "bob" / "card.md").write_text("My dog ate it.", encoding="utf-8")
+    (tmp_path / "cy" / "card.md").write_text(card(""), encoding="utf-8")
+    (tmp_path / "cy" / "card.pdf").write_bytes(b"%PDF-1.7")
+    (tmp_path / ".ipynb_checkpoints" / "a.ipynb").write_text("{}", encoding="utf-8")
+
+    assert pool(tmp_path, "rand", "eager").left_out == {
+        "bob/card.md": "it holds no card",
+        "cy/card.md": "the card names no student",
+        "cy/card.pdf": "cards are read from .ipynb, .md, .txt, .eml only",
+    }
+
+
 def test_a_robot_that_no_card_has_is_named(tmp_path):
     (tmp_path / "a.md").write_text(card("Ann"), encoding="utf-8")
     told = []
@@ -89,6 +105,7 @@ def test_a_robot_that_no_card_has_is_named(tmp_path):
 def test_the_command_says_the_verdict_and_draws_the_buildings(tmp_path, capsys):
     for name in ("Ann", "Bob", "Cy", "Di", "Eve"):
         (tmp_path / f"{name}.md").write_text(card(name), encoding="utf-8")
+    (tmp_path / "fay.txt").write_text("I have none.", encoding="utf-8")
     wall = tmp_path / "wall.svg"
 
     code = main(
@@ -100,4 +117,9 @@ def test_the_command_says_the_verdict_and_draws_the_buildings(tmp_path, capsys):
     assert code == 0
     assert "The claim that rand gains more than -99 % over eager: holds." in said
     assert "Goals of rand over eager in 5 buildings: mean " in said
-    assert wall.read_text("utf-8").startswith("<svg role=")
+    assert "Left out, as said above: fay.txt.\n" in said
+    shown = wall.read_text("utf-8")
+    assert shown.startswith("<svg role=")
+    for words in ("line: mean ", "band: its 95 % interval, ", "of 5 above 0"):
+        assert words in shown
+    assert "goals of wanderer over eager, in %" in shown
