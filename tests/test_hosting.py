@@ -38,6 +38,34 @@ def test_what_is_made_has_a_rule_and_what_is_run_is_there():
     assert {".ci/run", "scripts/student_edition.py"} <= run
 
 
+def test_what_is_published_is_what_make_writes():
+    pages, release = (
+        (ROOT / ".github" / "workflows" / f"{name}.yml").read_text("utf-8")
+        for name in ("pages", "release")
+    )
+
+    (published,) = re.findall(r"path: (build/\S+?) \}", pages)
+    assert f"$(HERE)/{published}/index.html" in MAKEFILE
+    (released,) = re.findall(r"(build/\S+)\*", release)
+    for kind in ("book", "student"):
+        assert f"'{released.removeprefix('build/')}{kind}', " in MAKEFILE
+
+
+def test_the_guide_installs_by_the_constraints_what_the_project_lists():
+    guide = (ROOT / "book" / "lecturers_guide.md").read_text("utf-8")
+    installs = re.findall(r"pip install ([^`]*)`", guide)
+    extras = re.findall(r"\[([\w,]+)\]", " ".join(installs))
+
+    assert {",".join(sorted(each.split(","))) for each in extras} == {
+        "class",
+        "class,lab",
+    }
+    assert set(",".join(extras).split(",")) <= set(PROJECT["optional-dependencies"])
+    by_constraints = [words for words in installs if '".[' in words]
+    assert len(by_constraints) == 3
+    assert all(words.startswith("-c constraints.txt ") for words in by_constraints)
+
+
 def test_the_notebook_server_installs_by_the_constraints_what_the_project_lists():
     [install] = [words for words in commands() if "install" in words]
     (extras,) = re.findall(r"\.\[(.*)\]", install[-1])

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from .._interrupts import ends_in_time, interrupts_noted
 from ..exercises._model import all_exercises, first_of, page_of
-from .handed_in import handed_in
+from .handed_in import files_of
 
 LAST = ("predictions", "cards", "same code as")
 SHOWN = {"not checked": "answered", "no answer yet": "", "hint": ""}
@@ -65,7 +65,7 @@ def collect(
         If there is no notebook in the folder.
     """
     folder, table = Path(folder), Path(table)
-    paths = handed_in(folder, "*.ipynb")
+    paths = files_of(folder, "*.ipynb")
     if not paths:
         raise ValueError(f"{folder} holds no notebook")
     kept = table.with_suffix(".jsonl")

@@ -28,7 +28,7 @@ OPENED = re.compile(
 ASKED = re.compile(r'\bcheck\(\s*["\'](ex-\d+-\d+[b-z]?)["\']')
 
 
-def handed_in(folder: Path, kind: str = "*") -> list[Path]:
+def files_of(folder: Path, kind: str = "*") -> list[Path]:
     """Return the files of a folder, at any depth, in order; none that is hidden."""
     paths = (path.relative_to(folder) for path in folder.rglob(kind))
     return sorted(

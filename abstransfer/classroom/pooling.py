@@ -16,7 +16,7 @@ import numpy as np
 from ..experiments.stats import Interval, t_interval
 from ..project.card import TITLE, verify
 from ..project.student import building_of, seed_of
-from .handed_in import handed_in, texts_of
+from .handed_in import files_of, texts_of
 
 KINDS = (".ipynb", ".md", ".txt", ".eml")
 
@@ -60,7 +60,7 @@ def pool(
         If no card counts.
     """
     folder, gains, left_out = Path(folder), {}, {}
-    for path in handed_in(folder):
+    for path in files_of(folder):
         file = path.relative_to(folder).as_posix()
         for card in _cards(path) or [""]:
             name = file

@@ -27,8 +27,12 @@ def add_options(parser) -> None:
     text = "pool result cards into a test of a claim"
     part = parts.add_parser("pool", help=text, description=text)
     part.add_argument("folder", metavar="DIR", type=Path, help="what was handed in")
-    add_option(part, "robot", "nd", "whose gain")
-    add_option(part, "over", "none", "compared with whom")
+    for name, default, text in (
+        ("--robot", "nd", "whose gain, by its name on the cards"),
+        ("--over", "none", "compared with whom"),
+    ):
+        text = f"{text} ({default})"
+        part.add_argument(name, metavar="ROBOT", default=default, help=text)
     add_option(part, "margin", 0.0, "the claim: the gain is above this share")
     part.add_argument(
         "--figure", metavar="FILE", type=Path, help="picture to write, such as wall.png"
