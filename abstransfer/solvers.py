@@ -57,12 +57,13 @@ def _rows(weight, row, column, n_rows: int, n_columns: int) -> csr_array:
     return csr_array((weight, column, first), shape=(n_rows, n_columns))
 
 
-def factorize(mdp: MDP, transitions: csr_array):
+def factorize(transitions: csr_array, gamma: float):
     """Return the sparse LU factors of I - gamma P, for P (S, S)."""
     from scipy.sparse import eye_array
     from scipy.sparse.linalg import splu
 
-    matrix = eye_array(mdp.n_states, format="csc") - mdp.gamma * transitions.tocsc()
+    n_states = transitions.shape[0]
+    matrix = eye_array(n_states, format="csc") - gamma * transitions.tocsc()
     return splu(matrix, relax=1, panel_size=1)  # few entries: no dense blocks to find
 
 
@@ -102,7 +103,7 @@ def evaluate_policy(mdp: MDP, policy: np.ndarray) -> np.ndarray:
     >>> evaluate_policy(corridor, np.ones((3, 1)))
     array([0.25, 0.5 , 1.  ])
     """
-    return factorize(mdp, transition_matrix(mdp, policy)).solve(mdp.reward)
+    return factorize(transition_matrix(mdp, policy), mdp.gamma).solve(mdp.reward)
 
 
 def action_values(mdp: MDP, v: np.ndarray) -> np.ndarray:

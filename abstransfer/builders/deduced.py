@@ -82,7 +82,7 @@ def abstract_gradient(
     value, gradient, visits = 0.0, np.zeros(abstract_policy.shape), np.zeros(n_abstract)
     parts = (np.split(array, ends[:-1]) for array in (rho, start))
     for block, z, begin in zip(blocks, *parts, strict=True):
-        factors = factorize(block, transition_matrix(block, abstract_policy[z]))
+        factors = factorize(transition_matrix(block, abstract_policy[z]), block.gamma)
         v = factors.solve(block.reward)
         d = factors.solve(begin, "T") * ~block.terminal
         q = np.where(block.allowed, action_values(block, v), 0.0)

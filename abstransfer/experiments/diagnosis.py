@@ -52,7 +52,7 @@ def arrival(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> Arrival:
     >>> found.arrived.tolist(), found.steps.tolist()  # 1 - 1/8; 1 + 1/2 + 1/4
     ([0.875, 1.0], [1.75, 0.0])
     """
-    moves = _by_distance(transition_matrix(mdp, check_policy(policy, mdp)))
+    moves = _by_distance(transition_matrix(mdp, policy))
     n_steps = whole("n_steps", n_steps)
     on_the_way = np.where(mdp.terminal, 0.0, 1.0)
     steps = np.zeros(mdp.n_states)
@@ -85,7 +85,7 @@ def can_arrive(mdp: MDP, policy: np.ndarray) -> np.ndarray:
     >>> can_arrive(mdp, np.array([[1.0, 0.0], [1.0, 0.0]])).tolist()
     [False, True]
     """
-    moves = transition_matrix(mdp, check_policy(policy, mdp)).tocoo()
+    moves = transition_matrix(mdp, policy).tocoo()
     n, ends = mdp.n_states, np.flatnonzero(mdp.terminal)
     # From one more state, which stands for "arrived", against the moves.
     backward = type(moves)(
@@ -206,7 +206,7 @@ def stuck(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> np.ndarray:
     >>> stuck(mdp, np.ones((2, 1)), n_steps=3).tolist()
     [0.125, 0.0]
     """
-    moves = _by_distance(transition_matrix(mdp, check_policy(policy, mdp)).T.tocsr())
+    moves = _by_distance(transition_matrix(mdp, policy).T.tocsr())
     share = np.where(mdp.terminal, 0.0, 1.0)
     share /= share.sum()
     for _ in range(n_steps):
@@ -227,8 +227,9 @@ def judged(mdp: MDP, policy: np.ndarray, gamma: float) -> float:
     """
     if not 0 <= gamma < 1:
         raise ValueError(f"gamma must satisfy 0 <= gamma < 1, got {gamma}")
-    game = replace(mdp, gamma=gamma, reward=np.where(mdp.terminal, 0.0, -1.0))
-    return float(100 * (1 - gamma) * evaluate_policy(game, policy).mean())
+    cost = np.where(mdp.terminal, 0.0, -1.0)
+    value = factorize(transition_matrix(mdp, policy), gamma).solve(cost)
+    return float(100 * (1 - gamma) * value.mean())
 
 
 def change_of_mind(
@@ -272,12 +273,11 @@ def return_variation(mdp: MDP, policy: np.ndarray) -> float:
     >>> round(return_variation(mdp, np.ones((2, 1))) ** 2, 6)  # (40/21) / (4/3)^2 - 1
     0.071429
     """
-    v = evaluate_policy(mdp, policy)
-    moves = transition_matrix(mdp, check_policy(policy, mdp))
+    moves = transition_matrix(mdp, policy)
+    v = factorize(moves, mdp.gamma).solve(mdp.reward)
     # G = r + gamma G': so E G^2 = r^2 + 2 r gamma E G' + gamma^2 E G'^2.
     once = mdp.reward**2 + 2 * mdp.reward * mdp.gamma * (moves @ v)
-    game = replace(mdp, gamma=mdp.gamma**2)
-    square = factorize(game, moves).solve(once)
+    square = factorize(moves, mdp.gamma**2).solve(once)
     way = ~mdp.terminal
     mean = v[way].mean()
     return float(np.sqrt(square[way].mean() - mean**2) / abs(mean))
