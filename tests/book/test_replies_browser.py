@@ -40,7 +40,7 @@ def one(html, chromium):
 
 @pytest.fixture(scope="module")
 def shown(one, request):
-    """A page of the book, opened once for all that is asked of it: its name, its tab."""
+    """Open a page once for all that is asked of it: its name, its tab."""
     one.problems.clear()
     drawn(one.open(request.param))
     return request.param, one
