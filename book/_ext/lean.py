@@ -4,14 +4,18 @@ A Sphinx extension that makes the pages light, and lets them live under strict p
 Before it draws anything a page waits for its scripts and its styles.  Here the scripts
 come after the page, in their order; what the theme wrote into each page as a script
 goes to one file, for a server may forbid scripts in pages; fifteen styles are one, and
-lose the rules for what is in no page, which are three quarters of the theme's; and
-pictures come when the reader is near, in the room that was kept for them.
+lose the rules for what is in no page, which are three quarters of the theme's; fonts of
+icons keep the few that pages show; and pictures come when the reader is near, in the
+room that was kept for them.
 """
 
 import hashlib
 import posixpath
 import re
 from pathlib import Path
+
+from fontTools.subset import Options, Subsetter
+from fontTools.ttLib import TTFont
 
 SETTINGS = "_static/settings.js"
 OF_THEME = "data-content_root="  # what only pages of the theme have
@@ -31,6 +35,12 @@ STYLE = re.compile(
 IMPORT = re.compile(r"@import\s*[\"']([^\"']+)[\"'];")
 PICTURE = re.compile(r'<img (?!loading)(?=[^>]*\bsrc="(_images/[^"]+\.svg)")')
 SIZE = re.compile(r'<svg[^>]*\bwidth="([\d.]+)pt" height="([\d.]+)pt"')
+FONTS = "_static/vendor/fontawesome/webfonts"
+FACE = re.compile(
+    r'url\((\.\./vendor/fontawesome/webfonts/[\w-]+)\.woff2\) format\("woff2"\),'
+    r'url\([^)]*\) format\("truetype"\)'
+)
+ICON = re.compile(r"\\(f[0-9a-f]{3})\b|([\uf000-\uf8ff])")
 ADDRESS = re.compile(r"url\(([\"']?)(?!data:|#|/)([^\"')]+)\1\)")
 INLINE = re.compile(r"<script(?![^>]*\bsrc=)([^>]*)>(.*?)</script>", re.DOTALL)
 CLICKED = re.compile(r' onclick="(?:window\.)?(\w+)\(\)"')
@@ -77,6 +87,31 @@ def lighten(app, exception):
         for path in paths:
             text = with_one_style(pages[path], name)
             path.write_text(text, encoding="utf-8", newline="\n")
+    keep_used_icons(out)
+
+
+def keep_used_icons(out: Path) -> None:
+    """Write the fonts of icons anew, with those that a style of the pages names."""
+    styles = {
+        path: path.read_text(encoding="utf-8")
+        for path in Path(out, "_static", "styles").glob("page-*.css")
+    }
+    icons = {
+        int(code, 16) if code else ord(letter)
+        for text in styles.values()
+        for code, letter in ICON.findall(text)
+    }
+    for path in Path(out, FONTS).glob("*.ttf"):
+        font, subsetter = TTFont(path), Subsetter(Options())
+        subsetter.populate(unicodes=icons)
+        subsetter.subset(font)
+        font.flavor = "woff"
+        font.save(path.with_suffix(".woff"))
+        path.unlink()
+        path.with_suffix(".woff2").unlink(missing_ok=True)
+    for path, text in styles.items():
+        text = FACE.sub(r'url(\1.woff) format("woff")', text)
+        path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def with_room(out: Path, found: re.Match) -> str:

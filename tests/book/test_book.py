@@ -7,6 +7,7 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 from bs4 import BeautifulSoup
+from fontTools.ttLib import TTFont
 from support import ROOT, toc_pages
 
 from abstransfer.exercises import exercises_of, open_exercises_of
@@ -162,6 +163,19 @@ def test_a_page_has_an_icon_and_a_description_and_no_script_of_icons(html):
         assert (html / head.find("link", rel="icon")["href"]).is_file()
         assert len(head.find("meta", attrs={"name": "description"})["content"]) > 40
         assert "fontawesome.js" not in str(head)  # 1.5 MB; a font has them too
+
+
+def test_fonts_of_icons_hold_the_icons_of_the_pages_and_no_others(html):
+    fonts = html.glob("_static/vendor/fontawesome/webfonts/*")
+    held = set().union(*(TTFont(path).getBestCmap() or {} for path in fonts))
+    styles = [
+        path.read_text("utf-8") for path in html.glob("_static/styles/page-*.css")
+    ]
+    named = {int(c, 16) for c in re.findall(r"\\(f[0-9a-f]{3})\b", "".join(styles))}
+
+    assert len(held) > 10
+    assert held == named
+    assert "woff2" not in "".join(styles)
 
 
 def test_a_picture_comes_late_into_the_room_that_was_kept_for_it(html):
