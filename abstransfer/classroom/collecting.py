@@ -81,9 +81,14 @@ def collect(
                 file.write(json.dumps(known[key]) + "\n")
         found.append(known[key])
         _write(table, _rows(found))  # each time: who stops it has what is known
-        _write(table.with_name(f"{table.stem}_misconceptions.csv"), _mistakes(found))
-        tell(f"{name}: {known[key]['outcome']}")
+        _write(second_of(table), _mistakes(found))
+        tell(f"{name}: {_outcome(known[key])}")
     return found
+
+
+def second_of(table: Path) -> Path:
+    """Return the file of the second table, which counts misconceptions."""
+    return table.with_name(f"{table.stem}_misconceptions.csv")
 
 
 def shut_off() -> list[str]:
@@ -159,23 +164,33 @@ def _rows(found: list[dict]) -> Iterable[list]:
     yield ["student", "file", "outcome", "right answers", *keys, *LAST]
     first = {}  # by digest, the first file with this code
     for said in found:
-        replies, asked = said.get("replies", {}), said.get("asked", ())
-        shown = {k: SHOWN.get(v, v) for k, (v, _) in replies.items()}
-        for key, (_, mistake) in replies.items():
-            if mistake:
-                shown[key] += f": {mistake}"
-        is_empty = said["outcome"] == "ran" and not any(shown.values())
+        shown, asked, outcome = _shown(said), said.get("asked", ()), _outcome(said)
+        is_empty = outcome == "empty"
         same = "" if is_empty else first.setdefault(said.get("digest"), said["file"])
         yield [
             said.get("student") or Path(said["file"]).stem,
             said["file"],
-            "empty" if is_empty else said["outcome"],
+            outcome,
             sum(verdict == "right" for verdict in shown.values()),
             *(shown.get(key, "not run" if key in asked else "-") for key in keys),
             said.get("predictions", ""),
             said.get("cards", ""),
             same if same != said["file"] and said.get("digest") else "",
         ]
+
+
+def _shown(said: dict) -> dict[str, str]:
+    """Return what the table says of each exercise that a notebook checked."""
+    return {
+        key: SHOWN.get(verdict, verdict) + (f": {mistake}" if mistake else "")
+        for key, (verdict, mistake) in said.get("replies", {}).items()
+    }
+
+
+def _outcome(said: dict) -> str:
+    """Return how a notebook ran, or that no blank of it was filled."""
+    is_empty = said["outcome"] == "ran" and not any(_shown(said).values())
+    return "empty" if is_empty else said["outcome"]
 
 
 def _mistakes(found: list[dict]) -> Iterable[list]:

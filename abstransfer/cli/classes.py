@@ -63,7 +63,7 @@ def _pool(arguments) -> int:
 
 
 def _collect(arguments) -> int:
-    from ..classroom.collecting import collect, shut_off
+    from ..classroom.collecting import collect, second_of, shut_off
 
     if not shut_off():
         print("This system cannot shut off the network.", file=sys.stderr)
@@ -75,5 +75,6 @@ def _collect(arguments) -> int:
         megabytes=arguments.megabytes,
         tell=lambda text: print(text, flush=True),
     )
-    print(f"{len(found)} notebooks; the tables are beside {arguments.csv}")
+    print(f"{len(found)} notebooks: the answers are in {arguments.csv},")
+    print(f"the mistakes in {second_of(arguments.csv)}")
     return 0
