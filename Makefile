@@ -20,6 +20,8 @@
 # The only need is Python 3.11 or newer; to choose one: make book PYTHON=python3.12
 
 PYTHON ?= python3
+# What a file is compiled to is kept: tests start hundreds of processes.
+unexport PYTHONDONTWRITEBYTECODE
 HERE := $(shell cd "$$(dirname "$(strip $(MAKEFILE_LIST))")" && pwd -P)
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
