@@ -15,6 +15,7 @@ addEventListener("DOMContentLoaded", () => {
 
 // What is late comes when the page was drawn once; drawn, not only asked to be.
 addEventListener("DOMContentLoaded", () => {
+  if (!PerformanceObserver.supportedEntryTypes.includes("paint")) return load();
   new PerformanceObserver((_, painted) => {
     painted.disconnect();
     load();

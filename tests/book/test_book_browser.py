@@ -114,6 +114,21 @@ def test_letters_of_formulas_come_from_the_books_own_font(visit):
     assert any(family.startswith("MJXTEX") for family in loaded)
 
 
+def test_formulas_come_where_a_browser_does_not_say_when_it_drew(html, chromium):
+    context = chromium.new_context()
+    context.add_init_script(
+        "Object.defineProperty(PerformanceObserver, 'supportedEntryTypes',"
+        " { value: ['mark'] });"
+        "PerformanceObserver.prototype.observe = () => {};"
+    )
+    try:
+        visit = Visit(context)
+        visit.folder = html
+        assert drawn(visit.open("notation")).locator("mjx-container").count() > 9
+    finally:
+        context.close()
+
+
 def test_one_pale_word_is_found(visit):
     # On a dark page the grey of the word would not be pale.
     page = drawn(visit(color_scheme="light").open("notation"))
