@@ -94,7 +94,6 @@ def chapter(soup, name: str, html: Path, names: set[str]):
         tag["id"] = f"{name}--{tag['id']}"
     for tag in article.select("[src]"):
         tag["src"] = file(html, tag["src"])
-        del tag["loading"]  # on paper nothing comes late
     for tag in article.select("a[href]"):
         target = link(tag["href"], name, names)
         if target is None:

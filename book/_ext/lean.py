@@ -5,8 +5,7 @@ Before it draws anything a page waits for its scripts and its styles.  Here the 
 come after the page, in their order; what the theme wrote into each page as a script
 goes to one file, for a server may forbid scripts in pages; fifteen styles are one, and
 lose the rules for what is in no page, which are three quarters of the theme's; fonts of
-icons keep the few that pages show; and pictures come when the reader is near, in the
-room that was kept for them.
+icons keep the few that pages show; and pictures have their room before they come.
 """
 
 import hashlib
@@ -33,7 +32,7 @@ STYLE = re.compile(
     r'[ ]*<link(?=[^>]*\brel="stylesheet")[^>]*\bhref="([^"?]+)[^>]*>\n?'
 )
 IMPORT = re.compile(r"@import\s*[\"']([^\"']+)[\"'];")
-PICTURE = re.compile(r'<img (?!loading)(?=[^>]*\bsrc="(_images/[^"]+\.svg)")')
+PICTURE = re.compile(r'<img (?!width)(?=[^>]*\bsrc="(_images/[^"]+\.svg)")')
 SIZE = re.compile(r'<svg[^>]*\bwidth="([\d.]+)pt" height="([\d.]+)pt"')
 FONTS = "_static/vendor/fontawesome/webfonts"
 FACE = re.compile(
@@ -115,10 +114,10 @@ def keep_used_icons(out: Path) -> None:
 
 
 def with_room(out: Path, found: re.Match) -> str:
-    """Return the begin of a picture that is loaded late, and has its room before."""
+    """Return the begin of a picture that has its room before it comes."""
     size = SIZE.search(Path(out, found[1]).read_text(encoding="utf-8"))
     width, height = (round(float(points) * 4 / 3) for points in size.groups())
-    return f'<img loading="lazy" width="{width}" height="{height}" '
+    return f'<img width="{width}" height="{height}" '
 
 
 def write_style(out: Path, sheets: tuple[str, ...], known: set[str]) -> str:
