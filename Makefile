@@ -134,10 +134,11 @@ exits: .venv/.book
 # skipped; elsewhere the tests that need it say how to get it.
 system:
 ifdef CI
-	@if ! command -v chromium >/dev/null; then \
+	@if ! command -v chromium-headless-shell >/dev/null; then \
 	  as_root=$$(test "$$(id -u)" = 0 || echo sudo); \
 	  $$as_root apt-get update -qq && \
-	  $$as_root apt-get install -y -qq --no-install-recommends chromium fonts-dejavu; fi
+	  $$as_root apt-get install -y -qq --no-install-recommends \
+	    chromium-headless-shell fonts-dejavu; fi
 endif
 
 bench: .venv/.book

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 PYTHON = "3.11"
 BROWSERS = (
+    "chromium-headless-shell",  # first: without windows it needs a quarter less
     *("chromium", "chromium-browser", "google-chrome", "chrome", "msedge"),
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
     r"C:\Program Files\Google\Chrome\Application\chrome.exe",

@@ -40,7 +40,7 @@ class Microscope:
 
     @property
     def slider(self):
-        return self.root.get_by_role("slider", name="Iteration")
+        return self.root.get_by_role("slider", name="Step")
 
     @property
     def step(self):
