@@ -3,7 +3,7 @@
 import signal
 
 import pytest
-from support import FLAGS, HTML, Tabs, unavailable
+from support import FLAGS, HTML, Tabs, Visit, unavailable
 
 from abstransfer.cli.doctor import check_browser
 
@@ -60,3 +60,14 @@ def visit(html, tabs):
         return tabs.lend(html, width, color_scheme=color_scheme)
 
     return new
+
+
+@pytest.fixture(scope="module")
+def tab(html, chromium):
+    """A wide tab for the book, the same for all tests of a module."""
+    looks = {"viewport": {"width": 1440, "height": 900}, "color_scheme": "light"}
+    context = chromium.new_context(**looks)
+    visit = Visit(context)
+    visit.folder = html
+    yield visit
+    context.close()

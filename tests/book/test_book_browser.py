@@ -20,15 +20,6 @@ WIDER = """() => [...document.querySelectorAll("article div.math > mjx-container
     .filter(([, needed, given]) => needed > given + 1)"""
 
 
-@pytest.fixture(scope="module")
-def tab(html, chromium):
-    context = chromium.new_context(viewport=WIDE, color_scheme="light")
-    visit = Visit(context)
-    visit.folder = html
-    yield visit
-    context.close()
-
-
 @pytest.fixture(scope="module", params=toc_pages())
 def page(tab, request):
     """A page of the book, opened once for all that is asked of it."""

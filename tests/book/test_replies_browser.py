@@ -1,7 +1,7 @@
 """The built pages reply: to bets, to their quiz, to links to a moment of the scene."""
 
 import pytest
-from support import Visit, drawn
+from support import drawn
 from test_bets import BETS, PAGES, plain
 from test_moments import links
 
@@ -30,20 +30,11 @@ def opened(visit):
 
 
 @pytest.fixture(scope="module")
-def one(html, chromium):
-    context = chromium.new_context(viewport={"width": 1440, "height": 900})
-    visit = Visit(context)
-    visit.folder = html
-    yield visit
-    context.close()
-
-
-@pytest.fixture(scope="module")
-def shown(one, request):
+def shown(tab, request):
     """Open a page once for all that is asked of it: its name, its tab."""
-    one.problems.clear()
-    drawn(one.open(request.param))
-    return request.param, one
+    tab.problems.clear()
+    drawn(tab.open(request.param))
+    return request.param, tab
 
 
 each_page = pytest.mark.parametrize("shown", NAMES, indirect=True)

@@ -24,6 +24,19 @@ class Shown(SceneTab):
         self.root.locator(".ab-bet").get_by_text(text, exact=True).click()
         return self.settle()
 
+    def tab_past_the_bet_to(self, text):
+        """By Tab, Space at the bet and Enter at a button that says the text."""
+        focus = "document.activeElement"
+        for _ in range(20):
+            self.page.keyboard.press("Tab")
+            if self.page.evaluate(f"{focus}.closest('.ab-bet') !== null"):
+                self.page.keyboard.press("Space")
+                self.settle()
+            if text in self.page.evaluate(f"{focus}.innerText ?? ''"):
+                self.page.keyboard.press("Enter")
+                break
+        return self
+
     @property
     def closing(self):
         closing = self.root.locator(".ab-closing")

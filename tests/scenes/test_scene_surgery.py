@@ -145,18 +145,9 @@ def test_another_luck_is_operated_on_anew(show, surgery):
 def test_by_keyboard_alone_in_the_dark_on_a_phone(show, surgery):
     options = {"color_scheme": "dark", "reduced_motion": "reduce"}
     scene = show(surgery, "#surgery.operation=graft", width=400, **options)
-    page, focus = scene.page, "document.activeElement"
-    for _ in range(20):
-        page.keyboard.press("Tab")
-        if page.evaluate(f"{focus}.closest('.ab-bet') !== null"):
-            page.keyboard.press("Space")
-            scene.settle()
-        if "Operate" in page.evaluate(f"{focus}.innerText ?? ''"):
-            page.keyboard.press("Enter")
-            break
-    scene.wait("goals after the advice.", ".ab-body > p")
+    scene.tab_past_the_bet_to("Operate").wait("goals after the advice.", ".ab-body > p")
 
-    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+    assert scene.page.evaluate("document.documentElement.scrollWidth") <= 400
     assert scene.small_controls() == []
     assert scene.violations() == []
     assert scene.problems == []

@@ -127,20 +127,13 @@ def test_seven_sizes_are_learned_by_one_button(show, whisper):
 def test_by_keyboard_alone_in_the_dark_on_a_phone(show, whisper):
     options = {"color_scheme": "dark", "reduced_motion": "reduce"}
     scene = show(whisper, "#whisper.what=exists", width=360, **options)
-    page, focus = scene.page, "document.activeElement"
-    for _ in range(20):
-        page.keyboard.press("Tab")
-        if page.evaluate(f"{focus}.closest('.ab-bet') !== null"):
-            page.keyboard.press("Space")
-            scene.settle()
-        if "Whisper, and" in page.evaluate(f"{focus}.innerText ?? ''"):
-            page.keyboard.press("Enter")
-            break
-    scene.wait("goals. Choose another", ".ab-body > p")
+    scene.tab_past_the_bet_to("Whisper, and").wait(
+        "goals. Choose another", ".ab-body > p"
+    )
 
     goals = whisper.goals("exists", 9).sum()
     assert totals(scene)["what exists \u00d7 1e\u22129"] == f"{goals:,}"
-    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert scene.page.evaluate("document.documentElement.scrollWidth") <= 360
     assert scene.violations() == []
 
 
