@@ -25,6 +25,11 @@ unexport PYTHONDONTWRITEBYTECODE
 HERE := $(shell cd "$$(dirname "$(strip $(MAKEFILE_LIST))")" && pwd -P)
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+# uv takes a tenth of pip's time, but does not read its settings, a mirror for instance;
+# so what it cannot install is left to pip.
+comma := ,
+install = $(PIP) uv && { \
+  $(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt $(1) || $(PIP) $(1); }
 DENO := DENO_DIR=.venv/share/deno $(BIN)/deno
 # The tests of a file share what is costly to make, so a file stays in one process.
 # The third process has work while another waits for a browser.
@@ -56,12 +61,12 @@ env: .venv/.book
 	  echo "abstransfer needs Python 3.11 or newer. Install it, then say for" \
 	       "instance: make PYTHON=python3.12"; exit 1; }
 	test "$$(cat .venv/.made-in 2>/dev/null)" = "$(HERE)" || $(PYTHON) -m venv --clear .venv
-	$(PIP) --editable ".[test]"
+	$(call install,--editable ".[test]")
 	@echo "$(HERE)" > .venv/.made-in
 	@touch $@
 
 .venv/.lab: .venv/.book
-	$(PIP) --editable ".[test,lab]"
+	$(call install,--editable ".[test$(comma)lab]")
 	@touch $@
 
 # From an empty folder: a second build would not repeat the warnings of the first.
@@ -110,7 +115,6 @@ nightly: .venv/.book system
 	.venv/graders/bin/python -m pip install --quiet -c constraints.txt -e ".[book,grading]"
 	GRADERS="$(HERE)/.venv/graders/bin" $(BIN)/python -m pytest --quiet \
 	  tests/classroom/test_graders.py
-	$(PIP) uv
 	for version in $(PYTHONS); do \
 	  $(BIN)/uv pip compile pyproject.toml --extra test --extra lab --extra grading -c constraints.txt \
 	    --python-version $$version --only-binary :all: --quiet > /dev/null || exit 1; \
@@ -142,7 +146,7 @@ ifdef CI
 endif
 
 bench: .venv/.book
-	$(PIP) --editable ".[peers]"
+	$(call install,--editable ".[peers]")
 	$(BIN)/python benchmarks/run.py
 	$(BIN)/python benchmarks/pages.py
 

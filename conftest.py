@@ -1,4 +1,10 @@
-"""How nbval compares the pages: all of an output, however busy the machine is."""
+"""
+How the tests run: what nbval compares of the pages, and for how long it waits.
+
+What was loaded and collected stays to the end: Python need not look there for garbage.
+"""
+
+import gc
 
 from nbval.plugin import IPyNbCell
 
@@ -9,6 +15,8 @@ COMPARED = {"metadata", "traceback", "name", "output_type"}
 # busy machine may take.
 PATIENCE = 1000
 
+gc.disable()  # until all is collected
+
 
 def pytest_collection_modifyitems(items):
     for item in items:
@@ -16,3 +24,9 @@ def pytest_collection_modifyitems(items):
             item.output_timeout = PATIENCE
             page = item.parent
             page.skip_compare = tuple(set(page.skip_compare) - COMPARED)
+
+
+def pytest_collection_finish():
+    gc.freeze()
+    gc.enable()
+    gc.set_threshold(50_000, 20, 20)

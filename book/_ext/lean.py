@@ -8,6 +8,7 @@ lose the rules for what is in no page, which are three quarters of the theme's; 
 icons keep the few that pages show; and pictures have their room before they come.
 """
 
+import gc
 import hashlib
 import posixpath
 import re
@@ -254,5 +255,8 @@ def selectors(head: str):
 
 
 def setup(app):
+    # Trees of pages are millions of objects, few of them garbage: to look for it as
+    # often as Python does was half of the build's time.
+    gc.set_threshold(200_000, 20, 100)
     app.connect("build-finished", lighten, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
