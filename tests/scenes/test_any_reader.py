@@ -178,6 +178,24 @@ def test_bars_are_seen_in_high_contrast(open_scene, name):
     assert bar.evaluate("e => getComputedStyle(e).backgroundColor") != ground
 
 
+def test_letters_of_a_chart_keep_their_ground_in_high_contrast(open_scene):
+    """Its colours stay those of the page's theme, whatever the reader's colours are."""
+    tab = open_scene(bare(KINDS["dial"]), forced_colors="active")
+    seen = "e => getComputedStyle(e).backgroundColor"
+
+    assert tab.root.locator("svg").first.evaluate(seen) == "rgb(255, 255, 255)"
+
+
+def test_on_a_phone_that_lies_a_swipe_moves_the_page_not_the_building(open_scene):
+    tab = open_scene(bare(KINDS["ripple"]))
+    gap = "e => e.scrollHeight - e.clientHeight"
+    frame = tab.root.locator(".ab-frame").first
+    tab.page.set_viewport_size({"width": 800, "height": 360})
+
+    assert frame.bounding_box()["height"] > 360, "it would be cut"
+    assert frame.evaluate(gap) == 0
+
+
 HIGH = "vscode-high-contrast"  # VS Code gives this name to its light form, too
 
 
