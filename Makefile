@@ -39,12 +39,12 @@ PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is p
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env system
+.PHONY: book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env style system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env system:
+book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env style system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -77,15 +77,18 @@ book: .venv/.book
 	@echo "The book is built. Open this file in a browser:"
 	@echo "  $(HERE)/build/_build/html/index.html"
 
-test: .venv/.book system
+test:
+	@$(MAKE) --no-print-directory -j2 .venv/.book system
+	@$(MAKE) --no-print-directory -j2 book style
+	$(PYTEST)
+
+style: .venv/.book
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/python abstransfer/scenes/bundle.py
 	$(DENO) fmt --check
 	$(DENO) lint
 	$(DENO) check abstransfer book/_ext
-	$(MAKE) --no-print-directory book
-	$(PYTEST)
 
 # For a patch to the method: maps to learning, with the examples of their docstrings.
 test-core: .venv/.book
