@@ -12,7 +12,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_array, dia_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from ..learning import q_learning_runs
@@ -52,26 +51,12 @@ def arrival(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> Arrival:
     >>> found.arrived.tolist(), found.steps.tolist()  # 1 - 1/8; 1 + 1/2 + 1/4
     ([0.875, 1.0], [1.75, 0.0])
     """
-    moves = _by_distance(transition_matrix(mdp, policy))
+    from ._steps import steps  # not before it is asked for: it loads the compiler
+
     n_steps = whole("n_steps", n_steps)
-    on_the_way = np.where(mdp.terminal, 0.0, 1.0)
-    steps = np.zeros(mdp.n_states)
-    for _ in range(n_steps):
-        steps += on_the_way
-        on_the_way = moves @ on_the_way
-    return Arrival(1 - on_the_way, steps)
-
-
-def _by_distance(moves: csr_array) -> csr_array | dia_array:
-    """
-    Return a matrix (S, S) by its diagonals, where most of them are well filled.
-
-    A building has few: its neighbours are a few distances apart.  A product with a
-    vector is the same to the bit, in half the time.
-    """
-    row, column = moves.tocoo().coords
-    distances = len(np.unique(column - row))
-    return moves.todia() if distances * moves.shape[0] <= 2 * moves.nnz else moves
+    start = np.where(mdp.terminal, 0.0, 1.0)
+    late, on_the_way = steps(transition_matrix(mdp, policy), start, n_steps)
+    return Arrival(1 - late, on_the_way)
 
 
 def can_arrive(mdp: MDP, policy: np.ndarray) -> np.ndarray:
@@ -206,12 +191,11 @@ def stuck(mdp: MDP, policy: np.ndarray, n_steps: int = 5000) -> np.ndarray:
     >>> stuck(mdp, np.ones((2, 1)), n_steps=3).tolist()
     [0.125, 0.0]
     """
-    moves = _by_distance(transition_matrix(mdp, policy).T.tocsr())
-    share = np.where(mdp.terminal, 0.0, 1.0)
-    share /= share.sum()
-    for _ in range(n_steps):
-        share = np.where(mdp.terminal, 0.0, moves @ share)
-    return share
+    from ._steps import steps  # not before it is asked for: it loads the compiler
+
+    on_the_way = np.where(mdp.terminal, 0.0, 1.0)
+    moves = transition_matrix(mdp, policy).T.multiply(on_the_way[:, None]).tocsr()
+    return steps(moves, on_the_way / on_the_way.sum(), n_steps)[0]
 
 
 def judged(mdp: MDP, policy: np.ndarray, gamma: float) -> float:
