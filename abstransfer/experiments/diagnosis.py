@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse.csgraph import breadth_first_order
 
-from ..learning import q_learning_runs
+from ..learning import Learner
 from ..learning.settings import whole
 from ..mdp import MDP, check_policy
 from ..policies import uniform_policy
@@ -116,22 +116,17 @@ def notes_after(
     guide = check_policy(guide, mdp, "guide")
     if mdp.reward.min() < 0:
         raise ValueError(f"reward must not be negative, got {mdp.reward.min()}")
-    rngs, way = list(rngs), ~mdp.terminal
-    # While the guide decides alone, what is noted changes no step: the same
-    # walk again, from notes that every update lowers, shows what was tried.
-    above = 2 * mdp.reward.max() / (1 - gamma) + 1
-    both = q_learning_runs(
-        mdp,
-        tau,
-        rngs=rngs * 2,
-        q0s=[0.0] * len(rngs) + [above] * len(rngs),
-        guide=guide,
-        tau=tau,
-        gamma=gamma,
-    )
-    runs, walks = both[: len(rngs)], both[len(rngs) :]
+    way = ~mdp.terminal
+    learner = Learner(mdp, rngs=rngs, guide=guide, tau=tau, gamma=gamma)
+    # A zero is equal to its negative, and no step leaves a negative one: so the sign
+    # of a value shows whether its action was tried.
+    for part in learner._parts:
+        for run in part.runs:
+            run.q[run.q == 0] = -0.0
+    learner.advance(tau)
+    runs = learner.results()
     game, best = _game(mdp, gamma)
-    tried = [(run.q != above)[way][mdp.allowed[way]].mean() for run in walks]
+    tried = [(~np.signbit(run.q[way][mdp.allowed[way]])).mean() for run in runs]
     noted = [(run.q.max(axis=1) > 0)[way].mean() for run in runs]
     skill = [
         evaluate_policy(game, obeyed(run.q, mdp.allowed))[way].mean() / best
