@@ -2,6 +2,6 @@
 
 from run_scenes import show
 from scene_pages import at_scenes, scene_pages
-from scene_tab import open_scene
+from scene_tab import all_scenes, open_scene
 
-__all__ = ["at_scenes", "open_scene", "scene_pages", "show"]
+__all__ = ["all_scenes", "at_scenes", "open_scene", "scene_pages", "show"]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from legible import faults
+from support import Visit
 
 from abstransfer.scenes import KINDS, Filling, bundle
 from abstransfer.scenes import files as front
@@ -90,6 +91,11 @@ AT_ONCE = """(name) => {
     leave();
     return [n, div.childNodes.length];
 }"""
+
+
+# States in which scenes learn least.
+SHORT = {"steps": 600_000}
+QUICK = {"dial": SHORT, "race": SHORT, "tau": SHORT, "project": {"lives": 1}}
 
 
 class SceneTab:
@@ -253,19 +259,33 @@ def open_scene(tabs, tmp_path):
     """
 
     def open_page(widget, query="", first="", **looks):
-        visit = tabs.lend(tmp_path, **looks)
-        body = widget if isinstance(widget, str) else widget.html()
-        html = PAGE.format(
-            style=front.style(),
-            scripts=f"<script>{first}</script>{scripts(body)}",
-            scene=body,
-        )
-        (tmp_path / "scene.html").write_text(html, encoding="utf-8")
-        visit.open("scene", query)
-        visit.page.wait_for_selector(".ab-live")
-        return SceneTab(visit).settle()
+        return opened(tabs.lend(tmp_path, **looks), widget, query, first)
 
     return open_page
+
+
+@pytest.fixture(scope="module")
+def all_scenes(chromium, tmp_path_factory):
+    """A page with all scenes, which no test touches."""
+    context = chromium.new_context(viewport={"width": 1440, "height": 900})
+    visit = Visit(context)
+    visit.folder = tmp_path_factory.mktemp("scenes")
+    yield opened(visit, "".join(map(quick, KINDS)))
+    context.close()
+
+
+def opened(visit, widget, query="", first=""):
+    """Open a page with a scene, or with what holds some, in a tab."""
+    body = widget if isinstance(widget, str) else widget.html()
+    html = PAGE.format(
+        style=front.style(),
+        scripts=f"<script>{first}</script>{scripts(body)}",
+        scene=body,
+    )
+    (visit.folder / "scene.html").write_text(html, encoding="utf-8")
+    visit.open("scene", query)
+    visit.page.wait_for_selector(".ab-live")
+    return SceneTab(visit).settle()
 
 
 def bare(kind, **options):
@@ -275,6 +295,11 @@ def bare(kind, **options):
     found = scene.options() if kind is Filling else scene.changed  # it needs results
     scene.options = lambda: found
     return scene.html()
+
+
+def quick(name):
+    """Return what a scene mounts on, with little to learn."""
+    return bare(KINDS[name], **QUICK.get(name, {}))
 
 
 class _Nothing:

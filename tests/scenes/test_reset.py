@@ -1,12 +1,10 @@
 """Reset gives the start back, whatever the reader did before."""
 
 import pytest
-from scene_tab import bare
+from scene_tab import quick
 
 from abstransfer.scenes import KINDS
 
-SHORT = {"steps": 600_000}
-STATES = {"dial": SHORT, "race": SHORT, "tau": SHORT, "project": {"lives": 1}}
 # Use each control in turn, as a reader would, then press Reset; return what is not then
 # as it was at the start: [control, what was, what is].
 TRY = """async (patience) => {
@@ -74,7 +72,7 @@ TRY = """async (patience) => {
 @pytest.mark.parametrize("name", KINDS)
 @pytest.mark.timeout(900)
 def test_reset_gives_the_start_back_after_every_control(open_scene, name):
-    tab = open_scene(bare(KINDS[name], **STATES.get(name, {})))
+    tab = open_scene(quick(name))
     n, wrong = tab.page.evaluate(TRY, 20_000)
 
     assert n >= 2

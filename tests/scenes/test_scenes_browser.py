@@ -452,12 +452,3 @@ def test_curves_grow_and_leaving_stops_the_worker(at_scenes):
     tab.page.goto("about:blank")
     assert tab.is_idle()
     assert tab.problems == []
-
-
-def test_all_scenes_live_on_one_page(open_scene):
-    kinds = [getattr(scenes, name) for name in scenes.__all__]
-    kinds = [kind for kind in kinds if getattr(kind, "scene", "")]
-    tab = open_scene("".join(bare(kind) for kind in kinds))
-
-    assert tab.page.locator(".ab-live").count() == len(kinds) >= 12
-    assert tab.problems == []
