@@ -137,9 +137,10 @@ def learn(first, last, world, guide, rule, run, who, what):
             k += 1
         s_next, old = np.int64(world.next_state[s, a, k]), q[s, a]
         improve(s, a, s_next, world, q, rule)
-        if t - first < len(who):
-            who[t - first] = s, a, how, s_next
-            what[t - first] = world.reward[s_next], old, q[s, a]
+        i = t - first
+        if i < len(who):  # by entries: rows would take most of the compiler's time
+            who[i, 0], who[i, 1], who[i, 2], who[i, 3] = s, a, how, s_next
+            what[i, 0], what[i, 1], what[i, 2] = world.reward[s_next], old, q[s, a]
         s, left = s_next, left - 1
         if world.terminal[s] or left == 0:
             s, left = restart(s, world, rule, run)
