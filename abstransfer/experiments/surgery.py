@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -111,9 +112,12 @@ def directions(notes: np.ndarray, size: float = 1e-6) -> np.ndarray:
     return np.where(np.isneginf(notes), notes, largest * size)
 
 
+@lru_cache(maxsize=2)
 def best_notes(mdp: MDP, gamma: float = 0.9) -> np.ndarray:
     """
     Return Q* (S, A) of the learner's own game: what perfect notes would be.
+
+    They are worked out once for a world, and cannot be written into.
 
     >>> mdp = MDP([[[1]], [[2]], [[2]]], np.ones((3, 1, 1)), [0, 0, 1],
     ...           [False, False, True], 0.99)
@@ -121,7 +125,9 @@ def best_notes(mdp: MDP, gamma: float = 0.9) -> np.ndarray:
     [0.5, 1.0, 0.0]
     """
     game = replace(mdp, gamma=gamma)
-    return action_values(game, optimal_values(game))
+    notes = action_values(game, optimal_values(game))
+    notes.flags.writeable = False
+    return notes
 
 
 def digest(mdp: MDP, trace: Trace, gamma: float = 0.9) -> np.ndarray:
