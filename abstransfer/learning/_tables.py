@@ -63,8 +63,9 @@ def make_world(mdp: MDP, start: np.ndarray) -> World:
 def make_guide(policy: np.ndarray, terminal: np.ndarray) -> Guide:
     """Return a policy (S, A) as its distinct rows; those of terminal states go."""
     policy = np.where(terminal[:, None], 1 / policy.shape[1], policy)
-    rows, row = distinct(integer_bounds(policy, 16))
-    return Guide(row, rows)
+    policies, which = distinct(policy)  # few: what follows is done for each once
+    rows, row = distinct(integer_bounds(policies, 16))
+    return Guide(row[which], rows)
 
 
 def pack(mdp: MDP, start: np.ndarray) -> tuple[World, Tables | None]:
@@ -118,9 +119,10 @@ def distinct(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     rows = np.ascontiguousarray(rows)
     keys = rows.view(f"V{rows.shape[1] * rows.itemsize}").ravel().tolist()
-    numbers: dict[bytes, int] = {}
-    number = np.array([numbers.setdefault(key, len(numbers)) for key in keys])
-    return rows[np.unique(number, return_index=True)[1]], number
+    numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
+    number = np.fromiter(map(numbers.__getitem__, keys), np.int64, len(keys))
+    first = np.diff(np.maximum.accumulate(number), prepend=-1) > 0
+    return rows[first], number
 
 
 def small_type(count: int) -> type:
