@@ -17,7 +17,7 @@ from scipy.sparse import csr_array
 
 from ..learning import _rng
 
-STAMP = sha256(_rng.STAMP + Path(__file__).read_bytes()).digest()
+STAMP = sha256(Path(__file__).read_bytes()).digest()
 
 
 def steps(moves: csr_array, x: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -29,13 +29,13 @@ def steps(moves: csr_array, x: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarr
     ([0.5, 0.0], [2.0, 1.0])
     """
     row, column = moves.tocoo().coords
-    distance = np.unique(column - row)
+    distance, total = np.unique(column - row), np.zeros(len(x))
     if len(distance) * len(x) <= 2 * moves.nnz:  # most of each diagonal is filled
         share = np.zeros((len(distance), len(x)))
         share[np.searchsorted(distance, column - row), row] = moves.data
-        x = x.copy()
-        return x, _by_parts(distance, share, _parts(row, column, len(x)), x, n)
-    total = np.zeros(len(x))
+        turns = x.copy(), np.zeros(len(x))
+        _by_parts(distance, share, _parts(row, column, len(x)), *turns, total, n)
+        return turns[n % 2], total
     for _ in range(n):
         total += x
         x = moves @ x
@@ -56,9 +56,12 @@ def _parts(row: np.ndarray, column: np.ndarray, n: int) -> np.ndarray:
 
 
 @partial(_rng.compiled, stamp=STAMP)
-def _by_parts(distance, share, first, x, n):
-    """Take n steps from x (S,), written over; share[k, s]: of s + distance[k] in s."""
-    total, other = np.zeros_like(x), np.zeros_like(x)
+def _by_parts(distance, share, first, x, other, total, n):
+    """
+    Take n steps from x (S,), by turns into `other` and into x; add up in `total`.
+
+    share : (K, S), of state s + distance[k] in what s comes to
+    """
     for part in range(len(first) - 1):
         low, high = first[part], first[part + 1]
         now, then, sums = x[low:high], other[low:high], total[low:high]
@@ -77,5 +80,3 @@ def _by_parts(distance, share, first, x, n):
                 for i in range(len(here)):
                     here[i] += weight[i] * there[i]
             now, then = then, now
-        x[low:high] = now
-    return total
