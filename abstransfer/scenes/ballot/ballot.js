@@ -5,6 +5,7 @@ import { adviceOf, BETAS, betaText, drive, elect, STEP, WINNER } from "./votes.j
 import { wholeAdvice } from "./whole.js";
 import { parseMap } from "../engine/maps.js";
 import { A, LABELS, navigationTasks } from "../engine/navigation.js";
+import { slices } from "../parts/slices.js";
 import { barChart } from "../ui/bars.js";
 import { button } from "../ui/controls.js";
 import { list, make, number, place as placeOf, plural } from "../ui/dom.js";
@@ -20,7 +21,6 @@ defineScene("ballot", {
     let election = null; // null until all votes are counted
     let drives = {}; // by beta: what the advice is worth in both buildings
     let shown = null; // the task that is seen
-    let timer = null;
     let isAsked = false; // what another beta is worth, which may take a while
 
     const words = make("p", {});
@@ -68,7 +68,7 @@ defineScene("ballot", {
       whole.bets,
       whole.node,
     );
-    scene.onLeave(() => clearTimeout(timer));
+    const { start, isWorking } = slices(scene);
 
     // ---- the election, and drives along the dial, in slices
 
@@ -78,18 +78,6 @@ defineScene("ballot", {
       view.map(sides[0].map, { aim: goals()[state.task] });
       [election, drives, shown] = [null, {}, null];
       start(work());
-    }
-    function start(job) {
-      clearTimeout(timer);
-      timer = setTimeout(advance, 0, job);
-    }
-    function advance(job) {
-      const end = performance.now() + 15;
-      let done = false;
-      while (!done && performance.now() < end) ({ done } = job.next());
-      timer = null;
-      if (!done) start(job);
-      scene.redraw();
     }
     function* work() {
       const [home, { map, each }] = sides;
@@ -190,7 +178,7 @@ defineScene("ballot", {
       }
       shown = sides[0].each[state.task];
       view.map(sides[0].map, { aim: shown.goal[0] });
-      if (!timer && !isDone()) start(driveAll());
+      if (!isWorking() && !isDone()) start(driveAll());
       showBox();
       const sentence = whole.show(state, drives, isDone());
       isAsked ||= changed.has("beta");

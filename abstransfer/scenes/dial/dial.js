@@ -13,6 +13,7 @@ import { count, make, millions, number, plural } from "../ui/dom.js";
 import { lineChart } from "../ui/lines.js";
 import { defineScene } from "../ui/scene.js";
 import * as runs from "../parts/runs.js";
+import { slices } from "../parts/slices.js";
 
 const { seed: SEED } = paper; // run `luck` has the seed of that run of the stored experiments
 const { step: STEP } = spec;
@@ -32,7 +33,8 @@ defineScene("dial", {
   build(scene) {
     let source, target, prob, drives, worlds; // drives: [in source, in target] by beta
     let [begun, running] = [[], []]; // runs { beta, of, goals }: not done, and those in workers
-    let [timer, place] = [null, ""];
+    let place = "";
+    const work = slices(scene); // all values of driving
 
     const policyOf = (beta) => betaPolicy(prob, beta);
     const drive = (
@@ -94,19 +96,13 @@ defineScene("dial", {
       const of = state.source + state.map;
       if (place && place !== of) scene.set({ points: [] }); // they were of other buildings
       place = of;
-      clearTimeout(timer);
-      timer = setTimeout(driveAll);
+      work.start(driveAll());
     }
-    // All values of driving, in slices.
-    function driveAll() {
-      const end = performance.now() + 15;
-      const left = BETAS.filter((beta) => !drives[beta]);
-      while (left.length && performance.now() < end) drive(left.shift());
-      timer = left.length ? setTimeout(driveAll) : null;
-      scene.redraw();
+    function* driveAll() {
+      for (const beta of BETAS) yield drive(beta);
     }
     const bestDriver = (side) =>
-      timer ? null : BETAS.reduce((a, b) => (drives[b][side] > drives[a][side] ? b : a));
+      work.isWorking() ? null : BETAS.reduce((a, b) => (drives[b][side] > drives[a][side] ? b : a));
     const places = () => [...new Set([0, bestDriver(1) ?? 0.5, 1, 2, LAST])];
 
     // ---- teaching: a point is [beta, goals, strategy, reward, tau, luck, steps]
@@ -176,7 +172,7 @@ defineScene("dial", {
         : "prob";
 
     function closing(state) {
-      if (timer) return "";
+      if (work.isWorking()) return "";
       const [inSource, inTarget] = [bestDriver(0), bestDriver(1)];
       const driver =
         `The policy drives best at β = ${number(inTarget, 2)} in the target (${
@@ -250,7 +246,7 @@ defineScene("dial", {
         `Let five teach: β = ${places().map((beta) => number(beta, beta % 1 ? 2 : 0)).join(", ")}`,
       );
       one.enable(state.bet);
-      many.enable(state.bet && !timer);
+      many.enable(state.bet && !work.isWorking());
       stop.node.hidden = !scene.isLearning;
     }
 
@@ -268,7 +264,6 @@ defineScene("dial", {
       };
     }
 
-    scene.onLeave(() => clearTimeout(timer));
     return function draw(state, changed) {
       if (changed.has("map") || changed.has("source")) begin(state);
       show(state);

@@ -55,7 +55,7 @@ defineScene("ladder", {
   title: "The ladder: Table 1",
   build(scene) {
     const name = (row) => armStyle(row).name;
-    let [found, before, first, target] = [null, null, null, null];
+    let [found, before, first, target, begun] = [null, null, null, null, ""];
 
     const me = makeEditor(scene, { label: "The source", begin });
     const ladders = makeLadders({ label: "Table 1 as two ladders", isCalm: () => scene.calm });
@@ -122,11 +122,14 @@ defineScene("ladder", {
     // ---- solving, in slices: the rungs first, then Grad climbs
 
     const isDone = () => found?.iteration === ITERATIONS;
+    const setting = () => `${SETTING.map((key) => scene.state[key])} ${me.isLarge()}`;
     function begin() {
+      if (begun === setting()) return; // a reset changes all, maybe to what it is
+      begun = setting();
       before = found ?? before;
-      found = null;
+      found = isPapers() ? first : null; // that one is solved once
       const { success, actions, near, almost_near: almostNear } = scene.state;
-      const job = !me.problem && !me.isLarge() &&
+      const job = !found && !me.problem && !me.isLarge() &&
         solving([me.map, target], { success, actions, near, almostNear });
       me.work(job, (last, isOver) => {
         found = last ?? found;

@@ -11,6 +11,7 @@ const WIDE = { left: 142, right: 130, gap: 22 };
 const NARROW = { left: 124, right: 122, gap: 14 };
 const ASIDE = 2 * SIZE; // how far a mark steps that would cover another
 const GLIDE = 400; // milliseconds
+const NEAR = 0.3; // what differs by less is a pixel apart: no glide for it
 
 // Steps aside of marks at these heights: every second one of those that are close.
 function asides(heights) {
@@ -28,6 +29,7 @@ export function makeLadders({ label, isCalm, height = 400 }) {
   const places = {}; // of rungs: { from, to, began }
   let [columns, frame] = [[], null];
   let [leftmost, rightmost] = [0, 0]; // what the texts need: a reader may space letters
+  let measured = ""; // the texts of which that is known
 
   // Where a rung is on its way.
   function placeOf(place, now) {
@@ -38,6 +40,7 @@ export function makeLadders({ label, isCalm, height = 400 }) {
   // and faint where it does not belong to what is shown.
   function set(next) {
     columns = next;
+    measured = "";
     const now = performance.now();
     for (const { title, rungs } of columns) {
       for (const { arm, value } of rungs) {
@@ -45,9 +48,8 @@ export function makeLadders({ label, isCalm, height = 400 }) {
         const before = places[key];
         if (!Number.isFinite(value)) continue; // where it was, it glides from
         if (!before || isCalm()) places[key] = { from: value, to: value, began: 0 };
-        else if (before.to !== value) {
-          places[key] = { from: placeOf(before, now), to: value, began: now };
-        }
+        else if (Math.abs(before.to - value) < NEAR) before.to = value;
+        else places[key] = { from: placeOf(before, now), to: value, began: now };
       }
     }
     repaint();
@@ -116,6 +118,12 @@ export function makeLadders({ label, isCalm, height = 400 }) {
     ) => drawn("path", { d: `M${ends.join("L")}`, class: "ab-line", style: thin(arm) }));
     resize(width, height);
     svg.replaceChildren(...across, ...parts);
+    const isMoving = Object.values(places).some(({ began }) => now - began < GLIDE);
+    if (isMoving) frame = requestAnimationFrame(repaint);
+    // Not in each picture of a glide: that would cost as much as all the rest.
+    const words = `${width} ${svg.textContent}`;
+    if (words === measured) return;
+    measured = words;
     const wide = (end) =>
       [...svg.querySelectorAll(`text[text-anchor="${end}"]`)].reduce(
         (most, each) => Math.max(most, each.getComputedTextLength()),
@@ -123,9 +131,7 @@ export function makeLadders({ label, isCalm, height = 400 }) {
       );
     leftmost = Math.ceil(gap + (isNarrow ? 2 : 28) + wide("end"));
     rightmost = Math.ceil(gap + 2 + wide("start"));
-    if (leftmost > left || rightmost > right) return repaint();
-    const isMoving = Object.values(places).some(({ began }) => now - began < GLIDE);
-    if (isMoving) frame = requestAnimationFrame(repaint);
+    if (leftmost > left || rightmost > right) repaint();
   }
   return { node, set, describe };
 }

@@ -1,8 +1,8 @@
 // A building that the reader edits: the drawing in the state as `text`, its view, its
 // tools, and what is not legal in it.  Map Studio and other scenes are made with it.
 
-import { runFor } from "../engine/absprob_pi.js";
 import { drawMap, parseMap } from "../engine/maps.js";
+import { slices } from "./slices.js";
 import { makeTools } from "./tools.js";
 import { mapTexts } from "../python.js";
 import { describeCell } from "./drawing.js";
@@ -11,7 +11,6 @@ import { button } from "../ui/controls.js";
 import { make, place } from "../ui/dom.js";
 
 const MANY = 1500; // cells: from here on, solving waits to be asked for
-const SLICE = 15; // milliseconds of work between two pictures
 
 // `onMap(problem)` hears of another drawing: `map` is it or, where it draws none, the
 // last one.  `begin` solves it: a button calls it where that waits to be asked for.
@@ -30,7 +29,7 @@ export function makeEditor(scene, options = {}) {
     ...view,
   });
   tools.listen(me.view);
-  let [timer, isAsked] = [null, false];
+  let isAsked = false;
   const solve = (me.solve = button("Large building: solve it", () => {
     me.ask();
     begin();
@@ -39,22 +38,8 @@ export function makeEditor(scene, options = {}) {
 
   me.ask = () => (isAsked = true);
   me.isLarge = () => me.map.nCells > MANY && !isAsked;
-  me.isWorking = () => timer !== null;
-  // Work off an iterator in slices, so that the page stays free; the last one ends.
-  // `onSlice(last, isOver)` hears what it yielded last, undefined if nothing.
-  me.work = (job, onSlice) => {
-    clearTimeout(timer);
-    timer = null;
-    if (!job) return;
-    const slice = () => {
-      const { last, done } = runFor(job, SLICE);
-      timer = done ? null : setTimeout(slice);
-      onSlice(last, done);
-      scene.redraw();
-    };
-    timer = setTimeout(slice);
-  };
-  scene.onLeave(() => clearTimeout(timer));
+  const { start, isWorking } = slices(scene);
+  [me.work, me.isWorking] = [start, isWorking];
   // Renew what changes with the state; `cells` are lit unless some are wrong.
   me.show = (cells = null) => {
     me.view.lit(me.problem ? me.bad : cells);

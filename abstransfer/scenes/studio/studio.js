@@ -95,8 +95,9 @@ defineScene("studio", {
     }
 
     function begin() {
-      found = null;
-      me.work(!me.problem && !me.isLarge() && solving(me.map), (last) => {
+      const canSolve = !me.problem && !me.isLarge();
+      found = canSolve && first?.text === me.map.text ? first : null; // solved once
+      me.work(canSolve && !found && solving(me.map), (last) => {
         found = last ?? found;
         if (isDone()) first ??= { ...found, text: me.map.text };
       });
