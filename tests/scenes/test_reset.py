@@ -12,7 +12,14 @@ TRY = """async (patience) => {
     const pictures = async (n) => {
         while (n--) await new Promise(requestAnimationFrame);
     };
-    const later = () => new Promise((f) => setTimeout(f, 20));
+    // Until something is written in the scene; false if nothing was for so long.
+    const writes = (milliseconds) => new Promise((tell) => {
+        const end = (is) => (observer.disconnect(), clearTimeout(timer), tell(is));
+        const observer = new MutationObserver(() => end(true));
+        const timer = setTimeout(end, milliseconds, false);
+        const all = { attributes: true, characterData: true, childList: true };
+        observer.observe(scene, { ...all, subtree: true });
+    });
     const isSeen = (each) => each.getClientRects().length > 0;
     const nameOf = (each) => each.getAttribute("aria-label") ??
         each.labels?.[0]?.textContent ?? each.textContent;
@@ -33,14 +40,8 @@ TRY = """async (patience) => {
         return JSON.stringify([text(scene.querySelector(".ab-body")), states], null, 1);
     };
     const rests = async () => {
-        let [before, same] = [look(), 0];
-        while (same < 20) {
-            await later();
-            const now = look();
-            same = now === before && !/…|Learning|Grad climbs/.test(now) ? same + 1 : 0;
-            before = now;
-        }
-        return before;
+        while (await writes(400) || /…|Learning|Grad climbs/.test(look()));
+        return look();
     };
     const start = await rests();
     const wrong = [];
@@ -58,8 +59,11 @@ TRY = """async (patience) => {
         await pictures(3);
         reset();
         const end = Date.now() + patience;
-        while (look() !== start && Date.now() < end) await later();
-        const now = look();
+        let now = look();
+        while (now !== start && Date.now() < end) {
+            await writes(100);
+            now = look();
+        }
         if (now === start) continue;
         const lines = start.split("\\n");
         wrong.push([name, now.split("\\n").filter((line, i) => line !== lines[i])]);
