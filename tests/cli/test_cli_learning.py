@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from multiprocessing import resource_tracker
 from pathlib import Path
 
@@ -15,6 +16,7 @@ import pytest
 from support import PATIENCE
 
 from abstransfer.cli import main
+from abstransfer.experiments import workers as pools
 from abstransfer.experiments.results import load_results
 from abstransfer.reproduction import blind_rules, catalogue
 from abstransfer.reproduction.folders import Survey
@@ -226,8 +228,16 @@ def test_a_bad_command_line_ends_with_code_2(arguments, message, capsys):
     assert message in capsys.readouterr().err
 
 
+@pytest.fixture
+def at_home(monkeypatch):
+    """Jobs are done in this process, for a test that does not ask who does them."""
+    monkeypatch.setattr(
+        pools, "ProcessPoolExecutor", lambda *_, **__: ThreadPoolExecutor(1)
+    )
+
+
 def test_a_study_prints_its_verdicts_and_whether_they_were_predicted(
-    capsys, tmp_path, monkeypatch
+    capsys, tmp_path, monkeypatch, at_home
 ):
     few = tuple(
         one._replace(given=one.given[::5])
@@ -281,7 +291,7 @@ def test_killed_and_resumed_equals_uninterrupted_to_the_byte(
     table = "goals.csv.gz"
 
     assert not (tmp_path / table).exists(), "it ended before it was killed"
-    assert main(command) == 0
+    assert main([*command, "--jobs", "1"]) == 0
     assert (tmp_path / table).read_bytes() == (uninterrupted / table).read_bytes()
     assert sorted(os.listdir(tmp_path)) == ["experiment.json", table]
     assert load_results(tmp_path).record["seconds"]["wall"] is None, "nothing was kept"
@@ -338,7 +348,7 @@ def test_another_experiment_is_not_mixed_in(uninterrupted, capsys):
     assert (uninterrupted / "goals.csv.gz").read_bytes() == before
 
 
-def test_a_grid_tunes_the_arms_of_another_experiment(tmp_path, capsys):
+def test_a_grid_tunes_the_arms_of_another_experiment(tmp_path, capsys, at_home):
     grid, tuned = tmp_path / "grid", tmp_path / "tuned"
     small = [*PAGE, "--jobs", "2", "--runs", "1"]
     assert main([*small, "--tau-grid", "--out", str(grid)]) == 0
