@@ -64,9 +64,12 @@ def visit(html, tabs):
 
 @pytest.fixture(scope="module")
 def tab(html, chromium):
-    """A wide tab for the book, the same for all tests of a module."""
-    looks = {"viewport": {"width": 1440, "height": 900}, "color_scheme": "light"}
-    context = chromium.new_context(**looks)
+    """A wide tab for the book, where nothing glides, for all tests of a module."""
+    context = chromium.new_context(
+        viewport={"width": 1440, "height": 900},
+        color_scheme="light",
+        reduced_motion="reduce",
+    )
     visit = Visit(context)
     visit.folder = html
     yield visit

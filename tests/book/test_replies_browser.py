@@ -6,6 +6,7 @@ from test_bets import BETS, PAGES, plain
 from test_moments import links
 
 NAMES = [path.stem for path in PAGES]
+GLIDES = "01_building"
 STATE = """scene => [scene.querySelector('.ab-body').innerHTML,
     ...[...scene.querySelectorAll('input')].map((e) => e.value + e.checked)].join()"""
 UNFOLDED = """() => {
@@ -104,7 +105,18 @@ def test_a_bet_and_a_choice_are_kept_and_forgotten(opened):
     assert tab.problems == []
 
 
+@pytest.fixture
+def gliding(shown):
+    """On one page the browser glides to the scene and back, on others it jumps."""
+    name, tab = shown
+    if name == GLIDES:
+        tab.page.emulate_media(reduced_motion="no-preference")
+    yield
+    tab.page.emulate_media(reduced_motion="reduce")
+
+
 @each_page
+@pytest.mark.usefixtures("gliding")
 def test_each_link_changes_the_scene_and_back_returns(shown):
     name, tab = shown
     page = tab.page
