@@ -165,12 +165,12 @@ def test_a_large_building_waits_to_be_asked_and_stops(open_scene):
 
 
 def test_a_stopped_race_keeps_what_was_learned_and_goes_on(open_scene):
-    tab = bet(project(open_scene, text=str(read_map("target")), lives=1))
+    tab = bet(project(open_scene, text=str(read_map("source")), lives=20))
     driven(tab).click("Race")
     tab.page.wait_for_function("() => /Racing: [1-9]/.test(document.body.innerText)")
     tab.click("Stop")
     assert tab.is_idle()
-    told = r"Done: (\d+) % of 5 runs. It can go on."
+    told = r"Done: (\d+) % of 100 runs. It can go on."
     before = int(re.search(told, tab.root.inner_text())[1])
     assert before > 0
     tab.click("Go on with the race")
@@ -183,7 +183,7 @@ def test_a_stopped_race_keeps_what_was_learned_and_goes_on(open_scene):
 
 
 def test_leaving_and_quick_changes_while_it_races(open_scene):
-    tab = bet(project(open_scene, text=str(read_map("target")), lives=20))
+    tab = bet(project(open_scene, text=str(read_map("source")), lives=20))
     driven(tab).click("Race")
     tab.page.wait_for_function("() => document.body.innerText.includes('Racing:')")
     for text in ("soft: ever less often", "hard: obey to the letter") * 2:
