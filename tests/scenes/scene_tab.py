@@ -5,7 +5,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from legible import faults
+from legible import faults, pale
 from support import Visit
 
 from abstransfer.scenes import KINDS, Filling, bundle
@@ -216,7 +216,12 @@ class SceneTab:
         return self.page.url[self.page.url.index("#") :]
 
     def violations(self):
-        return faults(self.page, ".abstransfer-scene")
+        """What is wrong; in the dark only colours are others."""
+        found = faults(self.page, ".abstransfer-scene")
+        self.page.evaluate("document.documentElement.dataset.theme = 'dark'")
+        found += pale(self.page, ".abstransfer-scene")
+        self.page.evaluate("delete document.documentElement.dataset.theme")
+        return found
 
     def small_controls(self):
         """Controls that are less than 24 px wide or high."""
