@@ -170,10 +170,11 @@ class Scene(anywidget.AnyWidget):
 
     def html(self) -> str:
         """Return what the built page shows, and where its script finds the scene."""
+        still = self.still().html()  # first: what it has learned, options need not
         options = escape(json.dumps(self.options(), ensure_ascii=False))
         return (
             f'<div class="abstransfer-scene" data-scene="{self.scene}" '
-            f'data-options="{options}">{self.still().html()}</div>'
+            f'data-options="{options}">{still}</div>'
         )
 
     def _repr_mimebundle_(self, include=None, exclude=None, **_):

@@ -356,7 +356,8 @@ def page_10():
     scene = Surgery()
     asked = [("nd", "none"), ("nd", "erase"), ("prob", "none"), ("prob", "graft")]
     asked += [("nd", "deal"), ("nd", "thin")]
-    nd, erased, prob, grafted, dealt, thinned = (scene.goals(*x).sum() for x in asked)
+    found = (goals.sum() for goals in scene.goals_of(asked))
+    nd, erased, prob, grafted, dealt, thinned = found
     assert prob < thinned < dealt < grafted < nd
     left = (erased - prob) / (nd - prob)
     yield [f"{100 * left:.0f} %", *(f"{n / 1000:.0f}" for n in (nd, erased, prob))]

@@ -16,8 +16,8 @@ OPERATED = {
 
 def draw(scene: Surgery) -> Still:
     """Return the curves after the advice: as left, then with either operation."""
-    curves = {name: scene.goals(*pair) for name, pair in OPERATED.items()}
-    names = [*OPERATED]
+    names, goals = [*OPERATED], scene.goals_of(OPERATED.values())
+    curves = dict(zip(names, goals, strict=True))
     nd, prob, erased, grafted = (int(goals.sum()) for goals in curves.values())
     caption = (
         f"Surgery on notes. After 3.5 of 30 million steps of advice ND's robot reaches "

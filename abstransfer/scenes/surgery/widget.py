@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
@@ -19,6 +20,7 @@ from .operations import KINDS, operate
 
 PATIENTS = ("nd", "prob")
 ADVICE = 7  # windows of a run: 3.5 of 30 million steps, the paper's hard tau
+_done = {}  # runs made in this process
 
 
 class Surgery(RunScene):
@@ -62,8 +64,22 @@ class Surgery(RunScene):
 
     def goals(self, patient: str, operation: str) -> np.ndarray:
         """Return the goals after the advice, by window (53,)."""
-        window = self.scale.window
-        return _alone(self.problem, window, self.luck, patient, operation)
+        return self.goals_of([(patient, operation)])[0]
+
+    def goals_of(self, pairs: Iterable[tuple[str, str]]) -> list[np.ndarray]:
+        """Return the same of several: they take turns to learn, in half the time."""
+        keys = {pair: (self.problem, self.scale, self.luck, *pair) for pair in pairs}
+        if new := [pair for pair, key in keys.items() if key not in _done]:
+            runs = q_learning_runs(
+                target_tasks(self.problem).mdp,
+                (WINDOWS - ADVICE) * self.scale.window,
+                rngs=[_seed(ALONE, self.luck)] * len(new),
+                q0s=[self._notes(*pair) for pair in new],
+                window=self.scale.window,
+            )
+            for pair, run in zip(new, runs, strict=True):
+                _done[keys[pair]] = run.goals
+        return [_done[key] for key in keys.values()]
 
     def _notes(self, patient: str, operation: str) -> np.ndarray:
         return _notes(self.problem, self.scale.window, self.luck, patient, operation)
@@ -99,15 +115,3 @@ def _notes(problem, window, luck, patient, operation) -> np.ndarray:
     other = PATIENTS[1 - PATIENTS.index(patient)]
     mine, others = left.notes[patient], left.notes[other]
     return operate(operation, mine, others, left.available, luck)
-
-
-@lru_cache(maxsize=64)
-def _alone(problem, window, luck, patient, operation) -> np.ndarray:
-    (run,) = q_learning_runs(
-        target_tasks(problem).mdp,
-        (WINDOWS - ADVICE) * window,
-        rngs=[_seed(ALONE, luck)],
-        q0s=[_notes(problem, window, luck, patient, operation)],
-        window=window,
-    )
-    return run.goals
