@@ -368,13 +368,15 @@ def page_10():
 def page_11():
     """When two robots wake, the sizes of a whisper, and what exists."""
     scene = Whisper()
-    quiet, advised = scene.goals("values", 9), scene.goals("advice")
+    asked = [*(("values", power) for power in POWERS), ("exists", 9)]
+    whispered = dict(zip(asked, scene.goals_of(asked), strict=True))
+    quiet, advised = whispered["values", 9], scene.goals("advice")
     woke = [first(goals > 5000) * 0.5 for goals in (quiet, advised)]
     yield ["5,000 goals", *(f"{x:g} million" for x in woke), "3.5 million"]
-    totals = {power: scene.goals("values", power).sum() for power in POWERS}
+    totals = {power: whispered["values", power].sum() for power in POWERS}
     assert list(totals.values()) == sorted(totals.values())
     thousands = [f"{totals[power] / 1000:.0f} thousand" for power in (0, 40)]
-    none, exists = scene.goals("none").sum(), scene.goals("exists", 9).sum()
+    none, exists = scene.goals("none").sum(), whispered["exists", 9].sum()
     yield ["Size 1", *thousands, f"{none / 1000:.0f}"]
     others = (advised.sum(), quiet.sum())
     yield [f"{exists / 1000:.0f} thousand", *(f"({n / 1000:.0f})" for n in others)]

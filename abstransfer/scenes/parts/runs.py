@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable, Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -12,7 +13,7 @@ from ...experiments.arms import PAPER_STEPS, SCALES, Arm, Scale
 from ...experiments.plan import SEED, STREAMS
 from ...experiments.problem import Problem, build_guides, target_tasks
 from ...experiments.results import read_results
-from ...learning import q_learning
+from ...learning import q_learning, q_learning_runs
 from ...plotting.style import arm_style
 from ..base import ArrayTrait, MapTrait, Scene
 from ..files import WINDOWS
@@ -93,6 +94,27 @@ class RunScene(Scene):
                 window=self.scale.window,
             ).goals
         return _done[key]
+
+
+def alone(
+    tasks, scale: Scale, seed, notes: Mapping[Hashable, Callable[[], np.ndarray]]
+) -> list[np.ndarray]:
+    """
+    Return the goals by window of robots that no guide advises, one for each key.
+
+    A key says what a run is; its notes, (S, A), are asked for if it is new.  New ones
+    take turns to learn, in half the time.
+    """
+    if new := [key for key in notes if key not in _done]:
+        runs = q_learning_runs(
+            tasks.mdp,
+            scale.steps,
+            rngs=[seed] * len(new),
+            q0s=[notes[key]() for key in new],
+            window=scale.window,
+        )
+        _done.update((key, run.goals) for key, run in zip(new, runs, strict=True))
+    return [_done[key] for key in notes]
 
 
 class PolicyTrait(ArrayTrait):

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import traitlets
 
 from ...driving import advised
+from ...experiments.arms import Scale
 from ...experiments.plan import SEED
 from ...experiments.problem import Problem, build_guides, target_tasks
 from ...experiments.surgery import leave, noted
-from ...learning import q_learning_runs
 from ...reproduction.interventions import ADVISED, ALONE
 from ..files import WINDOWS
-from ..parts.runs import RunScene
+from ..parts.runs import RunScene, alone
 from .operations import KINDS, operate
 
 PATIENTS = ("nd", "prob")
 ADVICE = 7  # windows of a run: 3.5 of 30 million steps, the paper's hard tau
-_done = {}  # runs made in this process
 
 
 class Surgery(RunScene):
@@ -68,18 +67,13 @@ class Surgery(RunScene):
 
     def goals_of(self, pairs: Iterable[tuple[str, str]]) -> list[np.ndarray]:
         """Return the same of several: they take turns to learn, in half the time."""
-        keys = {pair: (self.problem, self.scale, self.luck, *pair) for pair in pairs}
-        if new := [pair for pair, key in keys.items() if key not in _done]:
-            runs = q_learning_runs(
-                target_tasks(self.problem).mdp,
-                (WINDOWS - ADVICE) * self.scale.window,
-                rngs=[_seed(ALONE, self.luck)] * len(new),
-                q0s=[self._notes(*pair) for pair in new],
-                window=self.scale.window,
-            )
-            for pair, run in zip(new, runs, strict=True):
-                _done[keys[pair]] = run.goals
-        return [_done[key] for key in keys.values()]
+        window, settings = self.scale.window, (self.problem, self.scale, self.luck)
+        return alone(
+            target_tasks(self.problem),
+            Scale((WINDOWS - ADVICE) * window, window),
+            _seed(ALONE, self.luck),
+            {(*settings, *pair): partial(self._notes, *pair) for pair in pairs},
+        )
 
     def _notes(self, patient: str, operation: str) -> np.ndarray:
         return _notes(self.problem, self.scale.window, self.luck, patient, operation)

@@ -12,11 +12,12 @@ LOOKS = {"no advice": "none", "ND's advice": "nd-hard"}
 def draw(scene: Whisper) -> Still:
     """Return the curves of both rivals, then with values whispered, then said aloud."""
     quiet = f"values x 1e-{scene.power}"
+    whispers = scene.goals_of([("values", scene.power), ("values", 0)])
     curves = {
         "no advice": scene.goals("none"),
         "ND's advice": scene.goals("advice"),
-        quiet: scene.goals("values", scene.power),
-        "values x 1": scene.goals("values", 0),
+        quiet: whispers[0],
+        "values x 1": whispers[1],
     }
     none, advice, soft, loud = (f"{int(goals.sum()):,}" for goals in curves.values())
     caption = (

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Iterable
+from functools import lru_cache, partial
 
 import numpy as np
 import traitlets
@@ -10,9 +11,8 @@ import traitlets
 from ...experiments.arms import ARMS, SCALES
 from ...experiments.problem import Problem, target_tasks
 from ...experiments.results import read_results
-from ...learning import q_learning
 from ...reproduction.whispers import first_notes, taught
-from ..parts.runs import RunScene
+from ..parts.runs import RunScene, alone
 
 WHAT = ("values", "half", "prob", "nd", "exists")
 POWERS = (0, 1, 3, 6, 9, 20, 40)  # of the sweep: sizes 1 to 1e-40
@@ -59,10 +59,17 @@ class Whisper(RunScene):
         if power is None:
             name = {"none": "none", "advice": "nd-hard"}[what]
             return self.learn(next(arm for arm in ARMS if arm.name == name))
-        scale = self.scale
-        return _whispered(
-            self.problem, scale.steps, scale.window, self.luck, what, power
-        )
+        return self.goals_of([(what, power)])[0]
+
+    def goals_of(self, whispers: Iterable[tuple[str, int]]) -> list[np.ndarray]:
+        """Return the same of several whispers: the robots take turns to learn."""
+        settings = self.problem, self.scale, self.luck
+        notes = {(*settings, *one): partial(self._notes, *one) for one in whispers}
+        return alone(target_tasks(self.problem), self.scale, self.seed, notes)
+
+    def _notes(self, what: str, power: int) -> np.ndarray:
+        table = tables(self.problem)[what]
+        return first_notes(target_tasks(self.problem), table, float(f"1e-{power}"))
 
     def options(self) -> dict:
         """Return the state of the built page: both rivals, and the stored means."""
@@ -81,11 +88,3 @@ class Whisper(RunScene):
 def tables(problem: Problem) -> dict[str, np.ndarray]:
     """Return what can be whispered, made once."""
     return taught(problem)
-
-
-@lru_cache(maxsize=64)
-def _whispered(problem, steps, window, luck, what, power) -> np.ndarray:
-    tasks = target_tasks(problem)
-    notes = first_notes(tasks, tables(problem)[what], float(f"1e-{power}"))
-    seed = Whisper(luck=luck).seed
-    return q_learning(tasks.mdp, steps, rng=seed, q0=notes, window=window).goals
