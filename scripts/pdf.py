@@ -76,7 +76,7 @@ def link_first_page(html: Path) -> None:
     """Make the words that name the PDF on the book's first page a link to it."""
     path = html / "intro.html"
     text = path.read_text(encoding="utf-8")
-    words = rf'(?<!<a href="{LINK}">)<code[^>]*><span[^>]*>{LINK}</span></code>'
+    words = rf'(?<!<a href="{LINK}">)<code[^>]*>{LINK}</code>'
     linked = re.sub(words, rf'<a href="{LINK}">\g<0></a>', text)
     path.write_text(linked, encoding="utf-8", newline="\n")
 

@@ -5,7 +5,8 @@ Before it draws anything a page waits for its scripts and its styles.  Here the 
 come after the page, in their order; what the theme wrote into each page as a script
 goes to one file, for a server may forbid scripts in pages; fifteen styles are one, and
 lose the rules for what is in no page, which are three quarters of the theme's; fonts of
-icons keep the few that pages show; and pictures have their room before they come.
+icons keep the few that pages show; pictures have their room before they come; and words
+of code that look like the code around them stand alone, not each in an element.
 """
 
 import gc
@@ -42,6 +43,9 @@ FACE = re.compile(
 )
 ICON = re.compile(r"\\(f[0-9a-f]{3})\b|([\uf000-\uf8ff])")
 ADDRESS = re.compile(r"url\(([\"']?)(?!data:|#|/)([^\"')]+)\1\)")
+CODE = re.compile(r"<pre>.*?</pre>", re.DOTALL)
+PART = re.compile(r'<span class="pre">([^<]*)</span>')  # of code in a line
+PLAIN = re.compile(r'<span(?: class="(?:n|nn|p|w)")?>([^<]*)</span>')  # has no colour
 INLINE = re.compile(r"<script(?![^>]*\bsrc=)([^>]*)>(.*?)</script>", re.DOTALL)
 CLICKED = re.compile(r' onclick="(?:window\.)?(\w+)\(\)"')
 WORD = re.compile(r"[\w-]+")
@@ -68,7 +72,7 @@ def lighten(app, exception):
     for path in sorted(out.glob("*.html")):
         text = path.read_text(encoding="utf-8")
         if OF_THEME in text:
-            text = without_inline(EARLY.sub("", text), settings)
+            text = with_plain_code(without_inline(EARLY.sub("", text), settings))
             pages[path] = PICTURE.sub(lambda found: with_room(out, found), text)
     text = "".join(f"{body}\n" for body in settings)
     Path(out, SETTINGS).write_text(text, encoding="utf-8", newline="\n")
@@ -88,6 +92,19 @@ def lighten(app, exception):
             text = with_one_style(pages[path], name)
             path.write_text(text, encoding="utf-8", newline="\n")
     keep_used_icons(out)
+
+
+def with_plain_code(page: str) -> str:
+    """
+    Return a page without the spans in code that change no look.
+
+    >>> with_plain_code('<pre><span class="n">x</span><span class="o">.</span></pre>')
+    '<pre>x<span class="o">.</span></pre>'
+    >>> with_plain_code('<code><span class="pre">a</span> <span>b</span></code>')
+    '<code>a <span>b</span></code>'
+    """
+    page = PART.sub(r"\1", page)
+    return CODE.sub(lambda found: PLAIN.sub(r"\1", found[0]), page)
 
 
 def keep_used_icons(out: Path) -> None:
