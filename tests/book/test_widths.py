@@ -1,6 +1,7 @@
 """The built pages in windows of all widths: nothing sticks out, no building is cut."""
 
 import pytest
+from support import drawn
 
 WIDTHS = [*range(320, 1921, 64), 360, 400, 600, 768, 820, 1240, 1366]  # pixels
 SINGLE = 768  # from this width on a building is whole
@@ -14,7 +15,13 @@ LOOK = """() => ({
         name: frame.getAttribute("aria-label") ?? "",
     })),
 })"""
-LIVE = "!document.querySelector('.abstransfer-scene:not(.ab-live)')"
+
+
+@pytest.fixture(scope="module")
+def page(tab, request):
+    """A page of the book, opened once for all that is asked of it."""
+    yield drawn(tab.open(request.param))
+    tab.page.set_viewport_size({"width": 1440, "height": 900})
 
 
 def at_width(page, width):
@@ -24,20 +31,18 @@ def at_width(page, width):
     return page.evaluate(LOOK)
 
 
-def test_the_index_fits_a_phone(visit):
-    page = visit().open("genindex")
-
+@pytest.mark.parametrize("page", ["genindex"], indirect=True)
+def test_the_index_fits_a_phone(page):
     assert [at_width(page, width)["page"] for width in (320, 400)] == [320, 400]
 
 
 @pytest.mark.parametrize(
-    "name",
+    "page",
     ["00_race", "01_building", "02_solving", "03_learning", "04_abstraction"]
     + ["05_inducing", "07_driving_test", "12_your_turn"],
+    indirect=True,
 )
-def test_no_building_is_cut_without_a_sign(visit, name):
-    page = visit().open(name)
-    page.wait_for_function(LIVE)
+def test_no_building_is_cut_without_a_sign(page):
     wrong = []
     for width in WIDTHS:
         found = at_width(page, width)
@@ -67,27 +72,25 @@ CUT = """() => [...document.querySelectorAll("svg.ab-chart text")].flatMap((text
 
 
 @pytest.mark.parametrize(
-    "name",
+    "page",
     ["03_learning", "07_driving_test", "08_advice", "10_worst_driver", "11_neighbours"],
+    indirect=True,
 )
-def test_letters_may_stand_wider_apart(visit, name):
-    page = visit().open(name)
-    page.wait_for_function(LIVE)
-    page.add_style_tag(content=SPACED)
+def test_letters_may_stand_wider_apart(page):
+    style = page.add_style_tag(content=SPACED)
     wrong = []
     for width in (1280, 320):
         found = at_width(page, width)
         wrong += [(width, found["page"])] if found["page"] > width else []
         wrong += [(width, *text) for text in page.evaluate(CUT)]
+    style.evaluate("style => style.remove()")
 
     assert wrong == []
 
 
-def test_a_cell_of_an_editor_is_large_enough_for_a_finger(visit):
-    page = visit().open("01_building")
-    page.wait_for_function(LIVE)
-    page.set_viewport_size({"width": 360, "height": 900})
-    page.evaluate(PICTURES)
+@pytest.mark.parametrize("page", ["01_building"], indirect=True)
+def test_a_cell_of_an_editor_is_large_enough_for_a_finger(page):
+    at_width(page, 360)
     cell = page.locator("[data-scene=studio] .ab-tile").first
     box = cell.evaluate("e => e.getBoundingClientRect().toJSON()")
 
