@@ -10,36 +10,34 @@ import os
 from pathlib import Path
 
 import pytest
-from scene_tab import bare
+from scene_tab import bare, opened
+from support import Visit
 
 from abstransfer.scenes import KINDS
 
 FOLDER = Path(__file__).parents[1] / "golden" / "spoken"
 SILENT = {"none", "generic", "InlineTextBox", "ListMarker", "LabelText", "Legend"}
 STATES = ("checked", "disabled", "expanded", "readonly")
-# A scene at rest: all is solved that is solved by itself, and all cells have a name.
+# All scenes at rest: all is solved that is solved by itself, and all cells have a name.
 REST = """async () => {
-    const scene = document.querySelector(".abstransfer-scene");
-    let [before, same] = ["", 0];
-    while (same < 60) {
-        await new Promise(requestAnimationFrame);
-        const cells = [...scene.querySelectorAll("[role=gridcell]")];
-        const names = cells.map((cell) =>
-            cell.getAttribute("aria-label") ?? "…");
-        const now = scene.textContent + names.join();
-        const isBusy = /…|Learning:|Grad climbs|climbing:/.test(now);
-        same = now === before && !isBusy ? same + 1 : 0;
-        before = now;
-    }
+    const main = document.querySelector("main");
+    const isBusy = () => /…|Learning:|Grad climbs|climbing:/.test(main.textContent) ||
+        main.querySelector("[role=gridcell]:not([aria-label])");
+    let last = performance.now();
+    const all = { attributes: true, characterData: true, childList: true };
+    new MutationObserver(() => last = performance.now())
+        .observe(main, { ...all, subtree: true });
+    while (performance.now() < last + 1000 || isBusy())
+        await new Promise((f) => setTimeout(f, 100));
 }"""
 
 
 VALUES = "all => all.map((each) => each.getAttribute('aria-valuetext'))"
 
 
-def told(nodes, values):
+def told(nodes, title, values):
     """
-    Return the tree as lines: role, name, value and states, indented.
+    Return the tree of a scene as lines: role, name, value and states, indented.
 
     `values` are those of its sliders, in their order, as they are said.
     """
@@ -49,7 +47,7 @@ def told(nodes, values):
         node
         for node in nodes
         if node["role"]["value"] == "region"
-        and node.get("name", {}).get("value", "").startswith("Scene: ")
+        and node.get("name", {}).get("value", "") == title
     )
     lines = []
 
@@ -99,18 +97,36 @@ def told(nodes, values):
     return "\n".join(lines) + "\n"
 
 
-@pytest.mark.parametrize("name", KINDS)
-@pytest.mark.timeout(900)
-def test_what_a_screen_reader_meets_is_as_it_was_read(open_scene, name):
-    options = {"steps": 600_000} if "steps" in KINDS[name].state_names() else {}
-    tab = open_scene(bare(KINDS[name], **options))
-    tab.page.evaluate(REST)
-    session = tab.page.context.new_cdp_session(tab.page)
+@pytest.fixture(scope="module")
+def spoken(chromium, tmp_path_factory):
+    """By scene what is met, all on one page."""
+    context = chromium.new_context(viewport={"width": 1440, "height": 900})
+    visit = Visit(context)
+    visit.folder = tmp_path_factory.mktemp("scenes")
+    learns = {
+        name: {"steps": 600_000} if "steps" in kind.state_names() else {}
+        for name, kind in KINDS.items()
+    }
+    body = "".join(bare(KINDS[name], **options) for name, options in learns.items())
+    page = opened(visit, body).page
+    page.evaluate(REST)
+    session = context.new_cdp_session(page)
     session.send("Accessibility.enable")
     nodes = session.send("Accessibility.getFullAXTree")["nodes"]
-    found = told(nodes, tab.root.locator("[type=range]:visible").evaluate_all(VALUES))
-    session.detach()
+    found = {}
+    for name in KINDS:
+        scene = page.locator(f'[data-scene="{name}"]')
+        title = scene.locator(".ab-scene").first.get_attribute("aria-label")
+        values = scene.locator("[type=range]:visible").evaluate_all(VALUES)
+        found[name] = told(nodes, title, values)
+    yield found
+    context.close()
 
+
+@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.timeout(900)
+def test_what_a_screen_reader_meets_is_as_it_was_read(spoken, name):
+    found = spoken[name]
     path = FOLDER / f"{name}.txt"
     if os.environ.get("SPOKEN") == "write":
         path.parent.mkdir(exist_ok=True)
