@@ -69,18 +69,18 @@ def test_no_formula_is_wider_than_a_phone(on_phones):
 
 
 def test_who_chooses_in_a_quiz_by_keyboard_gets_the_reply_of_that_choice(page):
+    source = BOOK / page.url.rpartition("/")[2].replace(".html", ".ipynb")
+    asked = questions(text_of(source)) if source in LESSONS else []
+    question_of = [n for n, choices in enumerate(asked) for _ in choices]
     choices = page.locator("section#quiz details")
-    names = choices.evaluate_all("choices => choices.map(c => c.name)")
-    for i, name in enumerate(names):
+    assert choices.count() == len(question_of)
+    for i, question in enumerate(question_of):
         choices.nth(i).locator("summary").focus()
         page.keyboard.press("Enter")
         is_open = choices.evaluate_all("choices => choices.map(c => c.open)")
-        chosen = [j for j in range(len(names)) if names[j] == name and is_open[j]]
+        chosen = [j for j, n in enumerate(question_of) if n == question and is_open[j]]
         assert chosen == [i], "the others of the question are closed"
 
-    source = BOOK / page.url.rpartition("/")[2].replace(".html", ".ipynb")
-    asked = questions(text_of(source)) if source in LESSONS else []
-    assert len(names) == sum(map(len, asked))
     assert page.locator("section#quiz .quiz-right").count() == len(asked)
 
 
