@@ -102,8 +102,8 @@ def test_a_page_asks_nothing_of_the_network_and_no_script_fails(page, tab):
     assert tab.problems == []
 
 
-def test_letters_of_formulas_come_from_the_books_own_font(visit):
-    page = drawn(visit().open("notation"))
+@pytest.mark.parametrize("page", ["notation"], indirect=True)
+def test_letters_of_formulas_come_from_the_books_own_font(page):
     loaded = page.evaluate(
         "[...document.fonts].filter(f => f.status == 'loaded').map(f => f.family)"
     )
@@ -152,7 +152,7 @@ def test_the_search_finds_a_page(visit):
 
 
 def test_a_dark_page_is_printed_light(visit):
-    page = drawn(visit(color_scheme="dark").open("07_driving_test"))
+    page = drawn(visit(color_scheme="dark").open("00_race"))
     page.wait_for_function("document.documentElement.dataset.theme == 'dark'")
     page.evaluate(
         "addEventListener('beforeprint', () => "
