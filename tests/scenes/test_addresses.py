@@ -154,7 +154,7 @@ def test_a_scene_that_fails_at_its_start_leaves_nothing(open_scene):
 
 @pytest.mark.parametrize("name", ["race", "ballot", "ripple", "tau"])
 def test_a_map_that_is_none_leaves_the_start_and_a_sentence(open_scene, name):
-    tab = open_scene(bare(KINDS[name]), query=f"#{name}.map=no%20map")
+    tab = open_scene(quick(name), query=f"#{name}.map=no%20map")
     warning = tab.root.locator(".ab-body").locator("xpath=preceding-sibling::p")
 
     assert warning.inner_text().startswith("“map” stays as it was: ")

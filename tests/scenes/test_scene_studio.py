@@ -92,15 +92,19 @@ def test_the_papers_counts_and_numbers_are_marked(studio):
     ).is_visible()
 
 
-@pytest.mark.parametrize("cell", [CORRIDOR, 0, 34, 16])
-def test_what_a_cell_says_is_the_mdp(studio, cell):
+def test_what_a_cell_says_is_the_mdp(studio):
+    tasks = navigation_tasks(read_map("source"), keep=[7])
+    for cell in (CORRIDOR, 0, 34, 16):
+        assert_cell_says_the_mdp(studio, tasks, cell)
+
+
+def assert_cell_says_the_mdp(studio, tasks, cell):
     studio.cell(cell).hover()
     studio.settle()
     lines = [
         [td.inner_text() for td in line.locator("td").all()]
         for line in studio.root.locator(".ab-columns tbody tr").all()
     ]
-    tasks = navigation_tasks(read_map("source"), keep=[7])
     found = {}
     for name, place, chance, reward in lines[:-1]:
         row, col = divmod(cell, 15)
@@ -249,16 +253,18 @@ def test_tools_of_the_mouse(studio):
     assert text_of(studio) == before, "the outer wall stays"
 
 
-@pytest.mark.parametrize("show", ["states", "nd", "prob", "grad", "optimal"])
-def test_layers_lie_over_the_cells(open_scene, show):
-    tab = open_scene(bare(Studio, show=show))
-    solved(tab)
-    shown = tab.root.locator(
-        ".ab-pattern:not([hidden])" if show == "states" else ".ab-arrow:not([hidden])"
-    )
-
-    assert shown.count() > 100
-    assert tab.problems == []
+def test_layers_lie_over_the_cells(studio):
+    solved(studio)
+    patterns = studio.root.locator(".ab-pattern:not([hidden])")
+    arrows = studio.root.locator(".ab-arrow:not([hidden])")
+    studio.pick("In the cells", "abstract states")
+    assert patterns.count() > 100
+    for advice in ("ND", "Prob", "Grad", "optimal"):
+        studio.pick("In the cells", "the building")
+        assert patterns.count() == arrows.count() == 0
+        studio.pick("In the cells", advice)
+        assert arrows.count() > 100, advice
+    assert studio.problems == []
 
 
 # Buildings of all sizes
