@@ -154,7 +154,7 @@ def test_by_keyboard_alone_in_the_dark_on_a_phone(show, surgery):
 
 
 def test_stopping_and_leaving_end_the_workers(show):
-    scene = show(Surgery(steps=6_000_000), "#surgery.operation=deal")
+    scene = show(Surgery(), "#surgery.operation=deal")
     scene.bet("some of it").button("Operate").click()
     scene.wait_for_worker().button("Stop").click()
     scene.settle()
