@@ -25,6 +25,8 @@ HALF = "nd-available-0.5"  # half ND, half eager
 _HARD = TAU["hard"]
 
 #: The eleven arms of page 9: nine, a hint of what exists, the eager robot.
+#:
+#: :meta hide-value:
 ELEVEN = (
     *map(Told, ARMS),
     Told(ARMS[0]._replace(name="hint", hint=TINY)),

@@ -150,6 +150,8 @@ _SECOND_EDITION = (
 )
 EXPERIMENTS = _FIRST_EDITION + _SECOND_EDITION + NEIGHBOURS + BLIND + WHISPER + TEACHER
 #: What one command repeats alone.
+#:
+#: :meta hide-value:
 STUDIES = {
     "blind": BLIND,
     "whisper": WHISPER,

@@ -182,6 +182,8 @@ SHORT, LONG = "Fernandez & Veloso 2006", "Uchendu et al. 2023"
 TINY = (1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2)
 LOUD = (1.0, 0.3, 0.1, 0.03, 0.01, 0.001)
 #: First those that are no more than first notes, or the learner of the book.
+#:
+#: :meta hide-value:
 METHODS = (
     Method("none", "no transfer", "Watkins 1989", (None,), lambda k, x, n: Start()),
     Method(

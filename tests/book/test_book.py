@@ -63,6 +63,12 @@ def test_tables_and_examples_are_drawn_as_such(html, name):
     assert not re.findall(r"(?:\|\s*:?---|>>> ).*", text), "Markdown or Python as text"
 
 
+def test_no_value_in_the_reference_is_longer_than_a_few_lines(html):
+    for path in html.glob("api*.html"):
+        for value in soup(path).select("dt.sig em.property"):
+            assert len(value.get_text()) < 500, value.find_parent("dt")["id"]
+
+
 @pytest.mark.parametrize("name", PAGES)
 def test_every_picture_is_described(html, name):
     for picture in soup(html / f"{name}.html").find("article").find_all("img"):
