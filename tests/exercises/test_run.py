@@ -47,6 +47,8 @@ class SilentForEver(BaseException):
 
 class Nameless(type):
     def __getattribute__(cls, name):
+        if name == "__subclasses__":  # what a library asks of every error there is
+            return super().__getattribute__(name)
         raise RuntimeError("no name")
 
 
