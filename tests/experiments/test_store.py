@@ -4,6 +4,7 @@ import errno
 import gzip
 import os
 import re
+import zlib
 from concurrent.futures import Executor, Future
 from functools import cache
 from pathlib import Path
@@ -291,7 +292,7 @@ class Meddled(Folder):
         if data := self.bytes().get(TABLE):
             try:
                 lines = gzip.decompress(data).decode().split("\n")
-            except (OSError, EOFError, ValueError):
+            except (OSError, EOFError, ValueError, zlib.error):
                 return
             lines[row] = lines[row].rpartition(",")[0] + "," + goals
             self.meddle(TABLE, gzip.compress("\n".join(lines).encode(), mtime=0))
