@@ -14,6 +14,7 @@ import io
 import json
 import math
 import os
+import zlib
 from collections.abc import Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,6 +29,7 @@ TABLE, RECORD, UNFINISHED = "goals.csv.gz", "experiment.json", "unfinished.jsonl
 HEADER = "arm,tau,run,window,goals"
 OVERHEAD = 1000  # bytes that packing adds at most to a text that cannot be packed
 LARGEST_RECORD = 50_000_000  # bytes
+NO_ARCHIVE = EOFError, OSError, zlib.error  # what unpacking raises
 
 
 class Results(NamedTuple):
@@ -88,7 +90,7 @@ def load_results(folder: str | Path) -> Results:
         )
     try:
         return _parse(table, record, *parts)
-    except (ArithmeticError, LookupError, TypeError, ValueError, EOFError, OSError):
+    except (ArithmeticError, LookupError, TypeError, ValueError, *NO_ARCHIVE):
         message = f"{path}: not a table of goals as {RECORD} describes it"
         raise ValueError(message) from None
 

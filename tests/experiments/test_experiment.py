@@ -425,6 +425,22 @@ def test_a_file_of_another_size_than_its_record_can_mean_is_not_read_whole(
     assert most < 1_000_000
 
 
+@pytest.mark.parametrize(
+    "table",
+    [b"no archive", gzip.compress(b"arm")[:-9], gzip.compress(b"")[:10] + b"\xff"],
+    ids=["never packed", "cut off", "a stream that breaks"],
+)
+def test_a_table_that_cannot_be_unpacked_is_refused_by_name(
+    tmp_path, expected, monkeypatch, table
+):
+    record = {"parameters": parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS))}
+    monkeypatch.setattr(results, "_table", lambda results: table)
+    save_results(tmp_path, expected._replace(record=record))
+
+    with pytest.raises(ValueError, match="goals.csv.gz: not a table of goals as"):
+        load_results(tmp_path)
+
+
 @pytest.mark.parametrize("changed", [{"runs": 10**9}, {"runs": 0}, {"window": "all"}])
 def test_a_record_of_a_table_that_cannot_be_is_refused(tmp_path, expected, changed):
     there = parameters(make_plan(THREE, PROBLEM, SMALL, N_RUNS)) | changed
