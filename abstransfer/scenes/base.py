@@ -93,6 +93,9 @@ class Scene(anywidget.AnyWidget):
 
     scene = ""  # its name among the scripts, and of its folder
     constants = {}  # more that its script reads; JSON
+    # Traits: of a property, the widget's base class asks three times.
+    _esm = traitlets.Unicode().tag(sync=True)
+    _css = traitlets.Unicode().tag(sync=True)
 
     def __init__(self, **options):
         known = self.state_names()
@@ -104,12 +107,12 @@ class Scene(anywidget.AnyWidget):
             )
         super().__init__(**options)
 
-    @property
-    def _esm(self) -> str:
+    @traitlets.default("_esm")
+    def _module(self) -> str:
         return module(self.scene, self.spec())
 
-    @property
-    def _css(self) -> str:
+    @traitlets.default("_css")
+    def _style(self) -> str:
         return style()
 
     @classmethod

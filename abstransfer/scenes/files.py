@@ -111,10 +111,15 @@ def _problem(_: str) -> str:
 
 def said(**more) -> str:
     """Return what Python says to a script, as JSON."""
+    return json.dumps({**_said_to_all(), **more})
+
+
+@cache
+def _said_to_all() -> dict:
+    """Return what every script hears, made once: maps are read for it."""
     maps = {name: str(read_map(name)) for name in ("source", "target")}
     said = {"palette": _small_palette(), "mapTexts": maps, "paper": _paper()}
-    said["drawing"] = _drawing()
-    return json.dumps({**said, **more})
+    return {**said, "drawing": _drawing()}
 
 
 def _drawing() -> dict:
