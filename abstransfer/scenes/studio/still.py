@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from ...builders import BUILDERS, abstract_policies
 from ...driving import PAPER, ROWS, column
+from ...maps import Map
 from ...navigation import navigation_tasks
 from ...plotting.style import arm_style, count, number
 from ...solvers import evaluate_policy, optimal_values
@@ -17,8 +20,7 @@ MANY = 2000  # states: from here on, Python would be slow to climb to Grad
 def draw(scene: Studio) -> Still:
     """Return the building three times, twice with values of its cells."""
     map_, tasks = scene.map, scene.tasks
-    small = tasks.mdp.n_states < MANY
-    policies = abstract_policies(tasks, BUILDERS if small else BUILDERS[:2])
+    policies = _policies(map_)
     row = column(tasks, policies)
     task = min(scene.task, len(map_.goals) - 1)
     one = navigation_tasks(map_, keep=[task])
@@ -55,6 +57,14 @@ def draw(scene: Studio) -> Still:
         for name in ROWS
     ]
     return Still(frames, caption, ("policy", "here", "the paper"), rows)
+
+
+@lru_cache(maxsize=2)
+def _policies(map_: Map) -> dict:
+    """Return the policies built in a building; climbing to Grad is slow."""
+    tasks = navigation_tasks(map_)
+    small = tasks.mdp.n_states < MANY
+    return abstract_policies(tasks, BUILDERS if small else BUILDERS[:2])
 
 
 def _rounded(x: float | None) -> str:
