@@ -12,12 +12,36 @@ KNOWN = (
     ("aria-deprecated-role", "doc-biblioentry"),
     ("aria-required-children", "citation-list"),
 )
-WIDE, PHONE, SMALL = ({"width": width, "height": 900} for width in (1440, 400, 320))
+WIDE = {"width": 1440, "height": 900}
+WIDTHS = [*range(320, 1921, 64), 360, 400, 600, 768, 820, 1240, 1366]  # pixels
+SINGLE = 768  # from this width on a building is whole
+PICTURES = """() => new Promise(
+    (f) => requestAnimationFrame(() => requestAnimationFrame(f)))"""
+LOOK = """() => ({
+    page: document.documentElement.scrollWidth,
+    frames: [...document.querySelectorAll(".ab-frame")].map((frame) => ({
+        hidden: frame.scrollWidth - frame.clientWidth,
+        isShown: (frame.dataset.cut ?? "").includes("right"),
+        name: frame.getAttribute("aria-label") ?? "",
+    })),
+})"""
 # Displayed formulas that need more room than their column, and how much.  It is the
 # element of MathJax that scrolls, not ours around it.
 WIDER = """() => [...document.querySelectorAll("article div.math > mjx-container")]
     .map((box) => [box.parentNode.id, box.scrollWidth, box.clientWidth])
     .filter(([, needed, given]) => needed > given + 1)"""
+# What a reader may ask for who reads with difficulty (WCAG 1.4.12).
+SPACED = """
+* { letter-spacing: 0.12em !important; word-spacing: 0.16em !important }
+article p { line-height: 1.5 !important }
+"""
+# Texts of charts that stick out of their picture, with the pixels.
+CUT = """() => [...document.querySelectorAll("svg.ab-chart text")].flatMap((text) => {
+    const [inner, outer] = [text, text.ownerSVGElement]
+        .map((each) => each.getBoundingClientRect());
+    const out = Math.max(inner.right - outer.right, outer.left - inner.left);
+    return outer.width && out > 1 ? [[text.textContent, Math.round(out)]] : [];
+})"""
 
 
 @pytest.fixture(scope="module", params=toc_pages())
@@ -45,27 +69,76 @@ def test_a_page_is_accessible(page, looks):
     assert unknown(faults(page, known=looks)) == []
 
 
-@pytest.fixture(scope="module")
-def on_phones(page):
-    """What a page needs on phones: its width, and the formulas that are cut there."""
-    try:
-        found = []
-        for phone in (PHONE, SMALL):
-            page.set_viewport_size(phone)
-            width = drawn(page).evaluate("document.documentElement.scrollWidth")
-            found.append((width, page.evaluate(WIDER)))
-        return found
-    finally:
-        page.set_viewport_size(WIDE)
+@pytest.fixture
+def at_width(page):
+    """What a page looks like in a window of a width: a low one, quickly painted."""
+
+    def look(width):
+        page.set_viewport_size({"width": width, "height": 100})
+        page.evaluate(PICTURES)
+        return page.evaluate(LOOK)
+
+    yield look
+    page.set_viewport_size(WIDE)
 
 
-def test_a_page_fits_a_phone(on_phones):
-    assert [width for width, _ in on_phones] == [400, 320]
+def test_a_page_and_its_formulas_fit_a_phone(page, at_width):
+    """A formula could scroll, but what is cut looks complete: lines are broken."""
+    for width in (400, 320):
+        assert at_width(width)["page"] == width
+        assert page.evaluate(WIDER) == []
 
 
-def test_no_formula_is_wider_than_a_phone(on_phones):
-    """It could scroll, but what is cut looks complete: lines are broken instead."""
-    assert [wide for _, wide in on_phones] == [[], []]
+@pytest.mark.parametrize("page", ["genindex"], indirect=True)
+def test_the_index_fits_a_phone(at_width):
+    assert [at_width(width)["page"] for width in (320, 400)] == [320, 400]
+
+
+@pytest.mark.parametrize(
+    "page",
+    ["00_race", "01_building", "02_solving", "03_learning", "04_abstraction"]
+    + ["05_inducing", "07_driving_test", "12_your_turn"],
+    indirect=True,
+)
+def test_no_building_is_cut_without_a_sign(at_width):
+    wrong = []
+    for width in WIDTHS:
+        found = at_width(width)
+        wrong += [f"the page at {width}"] if found["page"] > width else []
+        for frame in found["frames"]:
+            is_cut = frame["hidden"] > 0
+            if is_cut != frame["isShown"] or (is_cut and not frame["name"]):
+                wrong.append(f"no sign at {width}: {frame}")
+            if is_cut and width >= SINGLE:
+                wrong.append(f"cut at {width}: {frame}")
+
+    assert wrong == []
+
+
+@pytest.mark.parametrize(
+    "page",
+    ["03_learning", "07_driving_test", "08_advice", "10_worst_driver", "11_neighbours"],
+    indirect=True,
+)
+def test_letters_may_stand_wider_apart(page, at_width):
+    style = page.add_style_tag(content=SPACED)
+    wrong = []
+    for width in (1280, 320):
+        found = at_width(width)
+        wrong += [(width, found["page"])] if found["page"] > width else []
+        wrong += [(width, *text) for text in page.evaluate(CUT)]
+    style.evaluate("style => style.remove()")
+
+    assert wrong == []
+
+
+@pytest.mark.parametrize("page", ["01_building"], indirect=True)
+def test_a_cell_of_an_editor_is_large_enough_for_a_finger(page, at_width):
+    at_width(360)
+    cell = page.locator("[data-scene=studio] .ab-tile").first
+    box = cell.evaluate("e => e.getBoundingClientRect().toJSON()")
+
+    assert round(min(box["width"], box["height"]), 1) >= 24
 
 
 def test_who_chooses_in_a_quiz_by_keyboard_gets_the_reply_of_that_choice(page):

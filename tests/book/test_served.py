@@ -1,8 +1,7 @@
 """The built book where scripts must be files, and where nothing may be stored."""
 
 import pytest
-from support import PATIENCE, served
-from test_book_browser import drawn
+from support import PATIENCE, drawn, served
 
 POLICY = "script-src 'self'; worker-src 'self'"
 NO_STORAGE = """
