@@ -3,6 +3,8 @@
 import pytest
 from legible import faults, pale
 from support import Visit, drawn, toc_pages
+from test_bets import BETS, plain
+from test_moments import links
 from test_pages import BOOK, LESSONS, questions, text_of
 
 # What the theme itself does wrong: (rule, part of the element).
@@ -42,6 +44,20 @@ CUT = """() => [...document.querySelectorAll("svg.ab-chart text")].flatMap((text
     const out = Math.max(inner.right - outer.right, outer.left - inner.left);
     return outer.width && out > 1 ? [[text.textContent, Math.round(out)]] : [];
 })"""
+NAMES = [path.stem for path in LESSONS]
+GLIDES = "01_building"
+# What a scene shows.
+STATE = """scene => [scene.querySelector('.ab-body').innerHTML,
+    ...[...scene.querySelectorAll('input')].map((e) => e.value + e.checked)].join()"""
+UNFOLDED = """() => {
+    for (const details of document.querySelectorAll("details:not([class])"))
+        details.open = true;
+}"""
+CALM = """() => new Promise((done) => {
+    const pictures = (n) => n ? requestAnimationFrame(() => pictures(n - 1)) : done();
+    pictures(4);
+})"""
+each_lesson = pytest.mark.parametrize("page", NAMES, indirect=True)
 
 
 @pytest.fixture(scope="module", params=toc_pages())
@@ -50,6 +66,10 @@ def page(tab, request):
     tab.problems.clear()
     tab.page.emulate_media(color_scheme="light")
     return drawn(tab.open(request.param))
+
+
+def name_of(page):
+    return page.url.rpartition("/")[2].partition(".")[0]
 
 
 @pytest.fixture(scope="module")
@@ -142,7 +162,7 @@ def test_a_cell_of_an_editor_is_large_enough_for_a_finger(page, at_width):
 
 
 def test_who_chooses_in_a_quiz_by_keyboard_gets_the_reply_of_that_choice(page):
-    source = BOOK / page.url.rpartition("/")[2].replace(".html", ".ipynb")
+    source = BOOK / f"{name_of(page)}.ipynb"
     asked = questions(text_of(source)) if source in LESSONS else []
     question_of = [n for n, choices in enumerate(asked) for _ in choices]
     choices = page.locator("section#quiz details")
@@ -168,6 +188,83 @@ def test_a_page_and_its_pictures_are_legible_in_the_dark(page, looks):
         ".map(style => style.backgroundColor + ' ' + style.filter)"
     )
     assert set(pictures) <= {"rgb(255, 255, 255) none"}, "they stand on a light card"
+
+
+@each_lesson
+def test_a_bet_is_placed_by_keyboard_folds_and_is_replied_to(page, tab):
+    for bet in BETS[name_of(page)]:
+        box, reply = (
+            page.locator(f"#{kind}{bet.name.removeprefix('bet-')}")
+            for kind in ("bet-", "reply-")
+        )
+        options = box.get_by_role("group").get_by_role("button")
+        wrong = next(o for o in bet.options if plain(o) != plain(bet.answer))
+        assert options.count() == len(bet.options) + bool(bet.asks)
+        for option, end in ((wrong, "”."), (bet.answer, "”: right.")):
+            index = [plain(o) for o in bet.options].index(plain(option))
+            options.nth(index).focus()
+            page.keyboard.press("Enter")
+            assert not options.first.is_visible(), "it folds"
+            change = box.get_by_role("button", name="Your bet:")
+            assert change.evaluate("e => e === document.activeElement")
+            assert reply.locator(".bet-said").inner_text().endswith(end)
+            page.keyboard.press("Enter")
+            assert options.first.is_visible()
+    page.evaluate(CALM)
+    assert tab.problems == []
+
+
+@pytest.mark.parametrize(
+    "page", [n for n in NAMES if any(b.asks for b in BETS[n])], indirect=True
+)
+def test_a_scene_and_its_page_say_a_bet_in_the_same_words(page, tab):
+    for bet in (b for b in BETS[name_of(page)] if b.asks):
+        box = page.locator(f"#{bet.name}")
+        for index in range(len(bet.options)):
+            if not box.locator(".bet-option").first.is_visible():
+                box.get_by_role("button", name="Your bet:").click()
+            button = box.locator(".bet-option").nth(index)
+            text = button.evaluate("b => b.textContent").replace("’", "'")
+            button.click()
+            line = page.locator(f'.ab-bet:has(a[href="#{bet.name}"])')
+            line.get_by_text(f"You bet on “{text}”.").wait_for()
+    assert tab.problems == []
+
+
+@pytest.fixture
+def gliding(page):
+    """On one page the browser glides to the scene and back, on others it jumps."""
+    if name_of(page) == GLIDES:
+        page.emulate_media(reduced_motion="no-preference")
+    yield
+    page.emulate_media(reduced_motion="reduce")
+
+
+@each_lesson
+@pytest.mark.usefixtures("gliding")
+def test_each_link_changes_the_scene_and_back_returns(page, tab):
+    page.evaluate("window.isSame = true")
+    assert links(LESSONS[NAMES.index(name_of(page))])
+    page.evaluate(UNFOLDED)
+    for link in page.locator("article a[href^='#'][href*='=']").all():
+        href = link.get_attribute("href")
+        scene = page.locator(f'[data-ab-id="{href[1:].partition(".")[0]}"]')
+        page.evaluate(CALM)
+        before = scene.evaluate(STATE)
+        link.click()
+        back = page.get_by_role("button", name="Back to the text")
+        back.wait_for()
+        page.evaluate(CALM)
+        assert scene.evaluate(STATE) != before, href
+        assert scene.locator(".ab-now", has_text="stays as it was").count() == 0
+        assert scene.bounding_box()["y"] < 900, "it is in sight"
+        back.click()
+        page.wait_for_function("hash => location.hash === hash", arg="")
+        page.evaluate(CALM)
+        assert link.evaluate("e => e === document.activeElement")
+        assert back.count() == 0
+    assert page.evaluate("isSame"), "the page was not loaded anew"
+    assert tab.problems == []
 
 
 def test_a_page_asks_nothing_of_the_network_and_no_script_fails(page, tab):
