@@ -16,6 +16,8 @@ PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>A scene</title>
 <meta name="viewport" content="width=device-width"><style>{style}</style></head>
 <body><main><h1>A scene</h1>{scene}</main>{scripts}</body></html>"""
+# Nobody looks, so nothing is painted: all else is as it is for a reader.
+UNPAINTED = "body { opacity: 0; }"
 PROBE = Path(__file__).parent / "js" / "probe.js"
 FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
 # A clock that the test turns, for what plays: `pass(700)`.
@@ -217,10 +219,12 @@ class SceneTab:
 
     def violations(self):
         """What is wrong; in the dark only colours are others."""
+        self.page.evaluate("document.body.style.opacity = 1")
         found = faults(self.page, ".abstransfer-scene")
         self.page.evaluate("document.documentElement.dataset.theme = 'dark'")
         found += pale(self.page, ".abstransfer-scene")
         self.page.evaluate("delete document.documentElement.dataset.theme")
+        self.page.evaluate("document.body.style.opacity = ''")
         return found
 
     def small_controls(self):
@@ -283,7 +287,7 @@ def opened(visit, widget, query="", first=""):
     """Open a page with a scene, or with what holds some, in a tab."""
     body = widget if isinstance(widget, str) else widget.html()
     html = PAGE.format(
-        style=front.style(),
+        style=front.style() + UNPAINTED,
         scripts=f"<script>{first}</script>{scripts(body)}",
         scene=body,
     )
