@@ -39,12 +39,12 @@ PYTHONS := 3.11 3.12 3.13 3.14 # for which there must be wheels of all that is p
 CORE := $(addprefix tests/,core builders learning) $(wildcard abstransfer/[a-z]*.py) \
   $(addprefix abstransfer/,builders learning)
 
-.PHONY: book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env style system
+.PHONY: book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env style loops system
 .DEFAULT_GOAL := book
 
 ifneq ($(HERE),$(CURDIR)) # called as make -f path/Makefile: go there
 
-book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env style system:
+book test test-core test-browsers nightly exits lab lab-student pdf slides student zip bench clean env style loops system:
 	@$(MAKE) --no-print-directory -C "$(HERE)" $@
 
 else
@@ -79,7 +79,7 @@ book: .venv/.book
 
 test:
 	@$(MAKE) --no-print-directory -j2 .venv/.book system
-	@$(MAKE) --no-print-directory -j2 book style
+	@$(MAKE) --no-print-directory -j2 book style loops
 	$(PYTEST)
 
 style: .venv/.book
@@ -89,6 +89,11 @@ style: .venv/.book
 	$(DENO) fmt --check
 	$(DENO) lint
 	$(DENO) check abstransfer book/_ext
+
+# Beside the book, whose build keeps one processor busy; or each process of the tests
+# would compile for itself.
+loops: .venv/.book
+	$(BIN)/python scripts/compile_loops.py
 
 # For a patch to the method: maps to learning, with the examples of their docstrings.
 test-core: .venv/.book
