@@ -298,7 +298,7 @@ def test_formulas_come_where_a_browser_does_not_say_when_it_drew(html, chromium)
 
 def test_one_pale_word_is_found(visit):
     # On a dark page the grey of the word would not be pale.
-    page, looks = drawn(visit(color_scheme="light").open("notation")), set()
+    page, looks = drawn(visit(color_scheme="light").open("how_to_cite")), set()
     page.locator("article p").first.evaluate("p => p.innerHTML += ' <i>pale</i>'")
     assert unknown(pale(page, known=looks)) == []
     page.locator("article p i").first.evaluate("word => word.style.color = '#999'")

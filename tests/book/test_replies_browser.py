@@ -1,24 +1,12 @@
 """What a reader bet and chose is kept or forgotten; it reads without scripts too."""
 
-import pytest
 from support import drawn
 from test_bets import BETS
 
 
-@pytest.fixture
-def opened(visit):
-    """Open a page of the book, and wait until nothing on it moves."""
-
-    def open_page(name, query="", **looks):
-        tab = visit(**looks)
-        return drawn(tab.open(name, query)), tab
-
-    return open_page
-
-
-def test_a_bet_and_a_choice_are_kept_and_forgotten(opened):
-    name = "03_learning"
-    page, tab = opened(name)
+def test_a_bet_and_a_choice_are_kept_and_forgotten(visit):
+    name, tab = "00_race", visit()
+    page = drawn(tab.open(name))
     bet, *_ = BETS[name]
     page.locator(f"#{bet.name} .bet-option").first.click()
     page.locator("#quiz summary").nth(1).click()
@@ -51,8 +39,9 @@ def test_a_page_without_scripts_reads_as_it_stands(html, chromium):
         context.close()
 
 
-def test_one_button_forgets_all_pages_asks_first_and_can_be_undone(opened):
-    page, tab = opened("00_race")
+def test_one_button_forgets_all_pages_asks_first_and_can_be_undone(visit):
+    tab = visit()
+    page = tab.page
     for name in ("00_race", "03_learning"):
         tab.open(name)
         page.locator(f"#{BETS[name][0].name} .bet-option").first.click()
