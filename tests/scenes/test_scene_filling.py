@@ -1,6 +1,7 @@
 """Box plots that fill: the page's own intervals and verdicts, run by run."""
 
 import json
+from functools import cache
 
 import numpy as np
 import pytest
@@ -9,7 +10,6 @@ from scene_tab import bare, number
 from abstransfer.experiments import stats
 from abstransfer.experiments.results import read_results
 from abstransfer.reproduction.optional_stopping import (
-    KEYS,
     SAME,
     orders,
     read_along,
@@ -18,7 +18,6 @@ from abstransfer.reproduction.optional_stopping import (
 from abstransfer.scenes import Filling
 
 RESULTS = read_results("goal-target")
-READINGS = {key: read_along(tracks(RESULTS, key)) for key in KEYS}
 READ = """async key => {
     const host = document.querySelector(".abstransfer-scene");
     const { data } = JSON.parse(host.dataset.options);
@@ -34,6 +33,12 @@ READ = """async key => {
     }
     return tracks;
 }"""
+
+
+@cache
+def reading(key):
+    """What who reads along does, worked out once."""
+    return read_along(tracks(RESULTS, key))
 
 
 @pytest.fixture
@@ -58,11 +63,9 @@ def sign(scene):
 
 def test_the_still_picture_states_both_sides():
     caption = Filling().still().caption
-    trap = READINGS[SAME]
+    trap = reading(SAME)
 
-    assert (
-        f"\u201c{READINGS['1'].verdict}\u201d from {READINGS['1'].settled}" in caption
-    )
+    assert f"\u201c{reading('1').verdict}\u201d from {reading('1').settled}" in caption
     assert f"of {len(trap.stops)} comparisons" in caption
     signed = sum(map(bool, trap.stops))
     assert f"signs {signed}: {signed / len(trap.stops):.0%}." in caption
@@ -117,7 +120,7 @@ def test_it_asks_first_and_ends_in_both_sentences(page):
     assert scene.root.locator(".ab-chart:visible").count() == 2
     sign(scene)
 
-    one, trap = READINGS["1"], READINGS[SAME]
+    one, trap = reading("1"), reading(SAME)
     assert scene.closing.startswith(
         "You bet on \u201c6 to 15\u201d; it was \u201c5 runs\u201d."
     )
