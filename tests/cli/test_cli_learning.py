@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from pathlib import Path
 
@@ -228,12 +229,20 @@ def test_a_bad_command_line_ends_with_code_2(arguments, message, capsys):
     assert message in capsys.readouterr().err
 
 
+@contextmanager
+def no_workers():
+    """Jobs are done in this process, where nothing asks who does them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            pools, "ProcessPoolExecutor", lambda *_, **__: ThreadPoolExecutor(1)
+        )
+        yield
+
+
 @pytest.fixture
-def at_home(monkeypatch):
-    """Jobs are done in this process, for a test that does not ask who does them."""
-    monkeypatch.setattr(
-        pools, "ProcessPoolExecutor", lambda *_, **__: ThreadPoolExecutor(1)
-    )
+def at_home():
+    with no_workers():
+        yield
 
 
 def test_a_study_prints_its_verdicts_and_whether_they_were_predicted(
@@ -258,9 +267,10 @@ def test_a_study_prints_its_verdicts_and_whether_they_were_predicted(
 
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory):
-    """The experiment of the tests below, made in one go with one process."""
+    """The experiment of the tests below, made in one go by one process: this one."""
     folder = tmp_path_factory.mktemp("experiment") / "whole"
-    code = main([*PAGE, "--jobs", "1", "--runs", "18", "--out", str(folder)])
+    with no_workers():
+        code = main([*PAGE, "--jobs", "1", "--runs", "18", "--out", str(folder)])
     assert code == 0
     return folder
 
@@ -291,7 +301,8 @@ def test_killed_and_resumed_equals_uninterrupted_to_the_byte(
     table = "goals.csv.gz"
 
     assert not (tmp_path / table).exists(), "it ended before it was killed"
-    assert main([*command, "--jobs", "1"]) == 0
+    with no_workers():
+        assert main([*command, "--jobs", "1"]) == 0
     assert (tmp_path / table).read_bytes() == (uninterrupted / table).read_bytes()
     assert sorted(os.listdir(tmp_path)) == ["experiment.json", table]
     assert load_results(tmp_path).record["seconds"]["wall"] is None, "nothing was kept"
