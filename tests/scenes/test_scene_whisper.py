@@ -112,8 +112,10 @@ def test_it_asks_first_and_then_says_who_was_right(show, whisper):
 def test_seven_sizes_are_learned_by_one_button(show, whisper):
     scene = show(whisper).bet("about as many, within 2 %")
     scene.button("Seven sizes").click()
-    scene.wait("as loud as they are", ".ab-closing")
+    scene.wait("goals. Choose another", ".ab-body > p")  # when all are done
     found = totals(scene)
+
+    assert "as loud as they are" in scene.closing
 
     for power in POWERS:
         size = f"1e\u2212{power}" if power else "1"

@@ -31,6 +31,8 @@ const ORDERS = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]
 function* solving(maps, reading) {
   const [source, target] = maps.map((map) => navigationTasks(map, reading));
   const found = { source: {}, target: {}, iteration: 0, targetTasks: target };
+  // What was yielded stays as it was: it may be drawn while the next is on its way.
+  const now = () => ({ ...found, source: { ...found.source }, target: { ...found.target } });
   const drive = (name, policy) => {
     found.source[name] = mean(evaluatePolicy(source, policy, source.rho));
     found.target[name] = mean(evaluatePolicy(target, policy, target.rho));
@@ -38,16 +40,16 @@ function* solving(maps, reading) {
   const v = optimalValues(source);
   drive("rand", randomPolicy(source.nAbstract, source.nActions));
   found.source.optimal = mean(v);
-  yield found;
+  yield now();
   const { nd, prob } = inducedPolicies(source, { v });
   drive("nd", nd);
   drive("prob", prob);
-  yield found;
+  yield now();
   found.target.optimal = mean(optimalValues(target));
   for (const { iteration, policy, value } of absprobPi(source)) {
     Object.assign(found, { iteration, grad: policy });
     found.source.grad = value;
-    yield found;
+    yield now();
   }
 }
 

@@ -62,16 +62,18 @@ export function outcomes(tasks, cell) {
 export function* solving(map) {
   const tasks = navigationTasks(map);
   const found = { tasks, row: {}, policies: {}, iteration: 0 };
+  // What was yielded stays as it was: it may be drawn while the next is on its way.
+  const now = () => ({ ...found, row: { ...found.row }, policies: { ...found.policies } });
   const drive = (name, policy) => {
     found.policies[name] = policy;
     found.row[name] = mean(evaluatePolicy(tasks, policy, tasks.rho));
   };
   found.states = abstractStates(tasks).length;
   drive("rand", randomPolicy(tasks.nAbstract));
-  yield found;
+  yield now();
   const v = optimalValues(tasks);
   found.row.optimal = mean(v);
-  yield found;
+  yield now();
   const { nd, prob } = inducedPolicies(tasks, { v });
   drive("nd", nd);
   drive("prob", prob);
@@ -79,6 +81,6 @@ export function* solving(map) {
     found.policies.grad = policy;
     found.iteration = iteration;
     found.row.grad = value;
-    yield found;
+    yield now();
   }
 }
