@@ -14,6 +14,7 @@ from pathlib import Path
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+from scene_tab import UNPAINTED
 from support import PATIENCE, ROOT
 
 from abstransfer import scenes
@@ -31,7 +32,7 @@ PAGES = {
 
 def page_of(cells) -> nbformat.NotebookNode:
     """Return a notebook whose outputs are what these cells would show."""
-    parts = [new_markdown_cell("# A page for tests")]
+    parts = [new_markdown_cell(f"# A page for tests\n\n<style>{UNPAINTED}</style>")]
     for number, code in enumerate(cells, 1):
         data = eval(code, {"scenes": scenes})._repr_mimebundle_()
         output = new_output("execute_result", data=data, execution_count=number)

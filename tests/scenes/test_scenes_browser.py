@@ -337,6 +337,7 @@ def test_ends_of_sliders_and_quick_changes(microscope):
 def test_scenes_are_accessible(at_scenes, color_scheme):
     scene = Microscope(at_scenes(color_scheme=color_scheme))
     scene.pick(re.compile("^Bet first"), STARTS["cost"][2]).rows()
+    scene.page.evaluate("document.body.style.opacity = 1")
 
     assert faults(scene.page, "[data-ab-id=microscope]") == []
 
