@@ -57,6 +57,8 @@ CALM = """() => new Promise((done) => {
     const pictures = (n) => n ? requestAnimationFrame(() => pictures(n - 1)) : done();
     pictures(4);
 })"""
+# Nobody looks but axe.
+PAINT = "opacity => (document.body.style.opacity = opacity)"
 each_lesson = pytest.mark.parametrize("page", NAMES, indirect=True)
 
 
@@ -65,7 +67,9 @@ def page(tab, request):
     """A page of the book, opened once for all that is asked of it."""
     tab.problems.clear()
     tab.page.emulate_media(color_scheme="light")
-    return drawn(tab.open(request.param))
+    tab.open(request.param)
+    tab.page.evaluate(PAINT, 0)
+    return drawn(tab.page)
 
 
 def name_of(page):
@@ -86,7 +90,9 @@ def test_a_page_draws_its_formulas(page):
 
 
 def test_a_page_is_accessible(page, looks):
+    page.evaluate(PAINT, 1)
     assert unknown(faults(page, known=looks)) == []
+    page.evaluate(PAINT, 0)
 
 
 @pytest.fixture
@@ -181,8 +187,10 @@ def test_a_page_and_its_pictures_are_legible_in_the_dark(page, looks):
     page.emulate_media(color_scheme="dark")
     page.wait_for_function("document.documentElement.dataset.theme == 'dark'")
     drawn(page)
+    page.evaluate(PAINT, 1)
 
     assert unknown(pale(page, known=looks)) == []
+    page.evaluate(PAINT, 0)
     pictures = page.locator("article img").evaluate_all(
         "images => images.map(i => getComputedStyle(i))"
         ".map(style => style.backgroundColor + ' ' + style.filter)"
