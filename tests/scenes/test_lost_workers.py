@@ -19,28 +19,38 @@ SELDOM = """
 window.requestAnimationFrame = (draw) => setTimeout(draw, 100);
 window.cancelAnimationFrame = clearTimeout;
 """
-# The first message that the page does not hear any more, and what it hears instead.
+# `losing` tells the first message of a worker that the page does not hear any more.
 LOSING = """
+window.losing = () => false;
 window.nLost = 0;
-window.Worker = class extends Worker {{
-  set onmessage(hear) {{
-    super.onmessage = (event) => {{
+window.Worker = class extends Worker {
+  set onmessage(hear) {
+    super.onmessage = (event) => {
       if (this.isLost) return;
-      const {{ i, q }} = event.data;
-      this.isLost = {when};
+      this.isLost = losing(event.data);
       if (!this.isLost) return hear(event);
       nLost++;
       this.terminate();
       this.onerror(new ErrorEvent("error"));
-    }};
-  }}
-}};
+    };
+  }
+};
 """
 WHEN = {
-    "before its first window": "i === 0",
-    "after half its windows": "i === {half}",
-    "while it sends its values": "q",
+    "before its first window": "({ i }) => i === 0",
+    "after half its windows": "({ i }) => i === HALF",
+    "while it sends its values": "({ q }) => q",
 }
+# Mounts the scene again in the place of itself; its workers are lost as told.
+AGAIN = """([html, when]) => {
+    [losing, nLost] = [eval(when), 0];
+    sessionStorage.clear();
+    const old = document.querySelector(".abstransfer-scene");
+    old.outerHTML = html;
+    const scene = document.querySelector(".abstransfer-scene");
+    const { scene: name, options } = scene.dataset;
+    said[name].mount(scene, JSON.parse(options ?? "{}"), { url: false });
+}"""
 
 
 def race(tab):
@@ -107,11 +117,11 @@ def test_each_scene_that_learns_is_tried():
 def test_a_lost_worker_changes_no_number(open_scene, name):
     kind, options, learn, half = CASES[name]
     html = bare(kind, **options)
-    wanted = told(learn(Shown(open_scene(html, first=SELDOM).visit)))
+    tab = learn(Shown(open_scene(html, first=SELDOM + LOSING).visit))
+    wanted = told(tab)
 
     for when in WHEN.values():
-        losing = SELDOM + LOSING.format(when=when.format(half=half))
-        tab = learn(Shown(open_scene(html, first=losing).visit))
+        tab.page.evaluate(AGAIN, [html, when.replace("HALF", f"{half}")])
+        assert told(learn(tab)) == wanted
         assert tab.page.evaluate("nLost") > 0
-        assert told(tab) == wanted
         assert tab.problems == []
