@@ -116,7 +116,6 @@ def test_seven_sizes_are_learned_by_one_button(show, whisper):
     found = totals(scene)
 
     assert "as loud as they are" in scene.closing
-
     for power in POWERS:
         size = f"1e\u2212{power}" if power else "1"
         assert found[f"values by view \u00d7 {size}"] == (
