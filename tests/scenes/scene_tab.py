@@ -70,6 +70,12 @@ WRITTEN = """async (acts) => {
     const all = { attributes: true, characterData: true, childList: true };
     const root = document.querySelector(".abstransfer-scene");
     observer.observe(root, { ...all, subtree: true });
+    // What an earlier act left to a timer, such as the names of all cells, comes first.
+    for (let turn = 0; turn < 30; turn++) {
+        n = 0;
+        await new Promise((f) => setTimeout(f, 20));
+        if (n) turn = 0;
+    }
     const counts = [];
     for (const act of acts) {
         n = 0;
