@@ -1,12 +1,18 @@
 """
-How the tests run: what nbval compares of the pages, and for how long it waits.
+How the tests run: what nbval compares of the pages, how it speaks to their kernels, and
+for how long it waits.
 
 What was loaded and collected stays to the end: Python need not look there for garbage.
 """
 
 import gc
+from shutil import rmtree
+from tempfile import mkdtemp
 
+import nbval.kernel
+from jupyter_client.manager import KernelManager
 from nbval.plugin import IPyNbCell
+from support import spoken_by_files
 
 # nbval leaves these out; a second run gives them too.  What stays out: the random names
 # of widgets, which the stored pages lack.
@@ -16,6 +22,21 @@ COMPARED = {"metadata", "traceback", "name", "output_type"}
 PATIENCE = 1000
 
 gc.disable()  # until all is collected
+
+
+class FileKernel(KernelManager):
+    """A kernel of nbval's, with a folder of its own."""
+
+    def __init__(self, **traits):
+        self.folder = mkdtemp()
+        super().__init__(**traits, **spoken_by_files(self.folder))
+
+    def shutdown_kernel(self, **how):
+        super().shutdown_kernel(**how)
+        rmtree(self.folder)
+
+
+nbval.kernel.KernelManager = FileKernel
 
 
 def pytest_collection_modifyitems(items):

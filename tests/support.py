@@ -55,6 +55,16 @@ def toc_pages():
     )
 
 
+def spoken_by_files(folder):
+    """Return settings of a kernel: a port found free may be another's a moment later.
+
+    The folder's name must be short, as that of a socket is, which is in it.
+    """
+    if os.name == "nt":
+        return {}
+    return {"transport": "ipc", "connection_file": str(Path(folder, "kernel.json"))}
+
+
 def unavailable(what):
     """Skip a test; but on a build server, where all must run, let it fail."""
     if os.environ.get("CI"):

@@ -4,6 +4,7 @@ import ast
 import json
 import os
 import re
+from tempfile import TemporaryDirectory
 
 import nbformat
 import pytest
@@ -12,7 +13,8 @@ from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from plain_markdown import Course, plain, read_course
 from student_edition import MARK, kept, pieces, stub, without_solutions
-from support import ROOT
+from support import ROOT, spoken_by_files
+from traitlets.config import Config
 
 from abstransfer.exercises import all_exercises, all_open_exercises
 
@@ -439,8 +441,10 @@ RUN = [p for p in PAGES if p.stem in CHEAP or "EVERY_PAGE" in os.environ]
 def test_run_all_without_an_answer_gives_words(path, tmp_path):
     edition = student_edition.student_edition(nbformat.read(path, 4), COURSE)
     keys = keys_of(edition)
-    kernel = {"metadata": {"path": tmp_path}}  # it is handed out alone
-    NotebookClient(edition, timeout=1000, resources=kernel).execute()
+    alone = {"metadata": {"path": tmp_path}}  # as it is handed out
+    with TemporaryDirectory() as folder:
+        config = Config(KernelManager=spoken_by_files(folder))
+        NotebookClient(edition, timeout=1000, resources=alone, config=config).execute()
 
     said = json.dumps([cell.get("outputs") for cell in edition.cells])
     for key in keys:

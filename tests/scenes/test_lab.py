@@ -70,10 +70,12 @@ def lab(tmp_path_factory):
         "ServerApp.root_dir": folder,
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
+        "KernelManager.transport": "ipc" if sys.platform == "linux" else "tcp",
         "IdentityProvider.token": token,
     }
-    homes = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR")
+    homes = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
     env = {**os.environ, **{home: str(folder / home.lower()) for home in homes}}
+    env["JUPYTER_RUNTIME_DIR"] = str(tmp_path_factory.mktemp("r"))  # short, for sockets
     settings = folder / "jupyter_config_dir/lab/user-settings/@jupyterlab"
     settings /= "notebook-extension/tracker.jupyterlab-settings"
     settings.parent.mkdir(parents=True)
