@@ -8,19 +8,19 @@ import sys
 import time
 import urllib.request
 from importlib.util import find_spec
-from itertools import count
 from pathlib import Path
 
 import nbformat
 import pytest
+from jupyter_client import BlockingKernelClient
 from nbformat.v4 import new_code_cell, new_notebook
 from playwright.sync_api import expect
+from scene_tab import UNPAINTED
 from support import PATIENCE, unavailable
 
 from abstransfer import scenes
 
 expect.set_options(timeout=1000 * PATIENCE)
-RUNS = count()  # what a cell said before is not what it says now
 
 CELL = "from abstransfer import scenes\n\n{0} = scenes.{0}({1})\n{0}"
 # What stands for a scene where no script runs is shown elsewhere, and takes seconds.
@@ -46,7 +46,11 @@ SCENES = [*SLIDERS, "Studio"]
 
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory):
-    """The address of a JupyterLab of its own, with one notebook of all scenes."""
+    """
+    A JupyterLab of its own, with one notebook of all scenes.
+
+    The value is its address, and the folder of files that tell how to reach kernels.
+    """
     if not find_spec("jupyterlab"):
         unavailable("JupyterLab is not installed; run: pip install -e '.[test]'")
     folder = tmp_path_factory.mktemp("lab")
@@ -75,7 +79,8 @@ def lab(tmp_path_factory):
     }
     homes = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
     env = {**os.environ, **{home: str(folder / home.lower()) for home in homes}}
-    env["JUPYTER_RUNTIME_DIR"] = str(tmp_path_factory.mktemp("r"))  # short, for sockets
+    kernels = tmp_path_factory.mktemp("r")  # short, for sockets
+    env["JUPYTER_RUNTIME_DIR"] = str(kernels)
     settings = folder / "jupyter_config_dir/lab/user-settings/@jupyterlab"
     settings /= "notebook-extension/tracker.jupyterlab-settings"
     settings.parent.mkdir(parents=True)
@@ -88,7 +93,7 @@ def lab(tmp_path_factory):
         server = subprocess.Popen(command, env=env, stdout=log, stderr=log)
         try:
             wait_for(f"{address}/api", server, folder / "log")
-            yield f"{address}/lab/tree/scenes.ipynb?token={token}"
+            yield f"{address}/lab/tree/scenes.ipynb?token={token}", kernels
         finally:
             server.terminate()
             server.wait(PATIENCE)
@@ -121,7 +126,9 @@ def page(lab, chromium):
     page = context.new_page()
     page.set_default_timeout(1000 * PATIENCE)
     page.on("pageerror", lambda error: problems.append(str(error)))
-    page.goto(lab)
+    address, _ = lab
+    page.goto(address)
+    page.add_style_tag(content=UNPAINTED)
     page.locator(".jp-CodeCell").last.wait_for()
     page.get_by_text("| Idle").wait_for()
     page.get_by_role("menuitem", name="Run", exact=True).click()
@@ -144,52 +151,66 @@ def scene_of(page, number):
     )
 
 
-def run_last_cell(page, code):
-    """Type a line into the last cell, run it, and return what it said, it alone."""
-    mark = f"run {next(RUNS)}"
-    cell = page.locator(".jp-CodeCell").last
-    cell.locator(".cm-content").click()
-    page.keyboard.press("Control+a")
-    page.keyboard.insert_text(f"{code}; print('{mark}')")
-    page.keyboard.press("Control+Enter")
-    output = cell.locator(".jp-OutputArea-output", has_text=mark)
-    output.wait_for()
-    return output.inner_text().replace(mark, "").strip()
+@pytest.fixture(scope="module")
+def kernel(lab, page):
+    """The notebook's kernel, asked past the page: a cell takes long to type and run."""
+    _, kernels = lab
+    (file,) = kernels.glob("kernel-*.json")
+    client = BlockingKernelClient(connection_file=str(file))
+    client.load_connection_file()
+    client.start_channels()
+    yield client
+    client.stop_channels()
 
 
-def wait_until_said(page, code, wanted):
-    """Run a line until it says what is wanted: a change is on its way to Python."""
-    for _ in range(40):
-        if (said := run_last_cell(page, code)) == wanted:
+def run(kernel, code, said="None"):
+    """Run code in the kernel, and return what an expression is worth then, as text."""
+    expressions = {"said": said}
+    reply = kernel.execute(
+        code, user_expressions=expressions, reply=True, timeout=PATIENCE
+    )["content"]
+    assert reply["status"] == "ok", reply
+    return reply["user_expressions"]["said"]["data"]["text/plain"]
+
+
+def wait_until(page, kernel, code):
+    """Wait until Python finds that code is true: a change is on its way to it."""
+    for _ in range(20 * PATIENCE):
+        if run(kernel, "", code) == "True":
             return
-    assert said == wanted
+        page.wait_for_timeout(50)
+    pytest.fail(f"never true in Python: {code}")
 
 
 @pytest.mark.parametrize("name", SLIDERS)
-def test_the_browser_and_python_share_the_state_of_a_scene(page, name):
+def test_the_browser_and_python_share_the_state_of_a_scene(page, kernel, name):
     label, trait, moved, pushed = SLIDERS[name]
     slider = scene_of(page, SCENES.index(name)).get_by_role("slider", name=label)
 
     slider.fill(str(moved))
-    wait_until_said(page, f"print('said', {name}.{trait})", f"said {moved}")
+    wait_until(page, kernel, f"{name}.{trait} == {moved}")
     slider.press("ArrowLeft")  # JupyterLab must not take it for a command
     expect(slider).not_to_have_value(str(moved))
+    wait_until(page, kernel, f"{name}.{trait} != {moved}")
     slider.press("ArrowRight")
     expect(slider).to_have_value(str(moved))
-    wait_until_said(page, f"print('said', {name}.{trait})", f"said {moved}")
+    wait_until(page, kernel, f"{name}.{trait} == {moved}")
 
-    assert run_last_cell(page, f"{name}.{trait} = {pushed}") == ""
+    run(kernel, f"{name}.{trait} = {pushed}")
     expect(slider).to_have_value(str(pushed))
 
 
-def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page):
+def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page, kernel):
     scene = scene_of(page, SCENES.index("Studio"))
 
     scene.get_by_role("button", name="The target").click()
-    target = "said Map(18 x 30 cells, 35 rooms, 35 goals)"
-    wait_until_said(page, "print('said', repr(Studio.map))", target)
+    target = "Map(18 x 30 cells, 35 rooms, 35 goals)"
+    wait_until(page, kernel, f"repr(Studio.map) == {target!r}")
 
-    assert run_last_cell(page, "Studio.map = 'source'") == ""
+    page.locator(".jp-CodeCell").last.locator(".cm-content").click()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text("Studio.map = 'source'")
+    page.keyboard.press("Control+Enter")
     expect(scene.get_by_text("135 cells").first).to_be_visible()
 
 
