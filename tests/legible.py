@@ -6,13 +6,14 @@ from importlib.resources import files
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
 # Text of one look (letters, and all that lies behind them) has one contrast.  Of each
 # look two are asked, the longest and the last: axe does not judge what the head of the
-# sidebar covers; nor single letters, what is above the page until it has the focus, and
-# the words of a formula that are only heard.  Looks that are known are not asked again.
+# sidebar covers; nor single letters, what is above the page until it has the focus, the
+# words of a formula that are only heard, and those of a drawing, which has a picture
+# behind them.  Looks that are known are not asked again.
 OF_EACH_LOOK = r"""([where, known]) => {
     axe.configure({ rules: [{ id: "color-contrast", selector: "[data-look]" }] });
     const FIELDS =
         "select, textarea, input:not([type=range], [type=radio], [type=checkbox])";
-    const HEARD = "mjx-assistive-mml";
+    const UNJUDGED = "mjx-assistive-mml, svg";
     const looks = new Map();
     const seen = { opacityProperty: true, visibilityProperty: true };
     const said = (node) => node.nodeType === Node.TEXT_NODE ? node.data.trim() : "";
@@ -30,7 +31,7 @@ OF_EACH_LOOK = r"""([where, known]) => {
     };
     for (const e of document.querySelectorAll(`${where}, ${where} *`)) {
         const speaks = length(e) > 1 || e.matches(FIELDS);
-        if (!speaks || !e.checkVisibility(seen) || e.closest(HEARD)) continue;
+        if (!speaks || !e.checkVisibility(seen) || e.closest(UNJUDGED)) continue;
         if (e.getBoundingClientRect().bottom + scrollY < 0) continue;
         const { color, fontSize, fontWeight } = getComputedStyle(e);
         const look = [color, fontSize, fontWeight, ...behind(e)];
