@@ -10,7 +10,8 @@ AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"
 # words of a formula that are only heard, and those of a drawing, which has a picture
 # behind them.  Looks that are known are not asked again.
 OF_EACH_LOOK = r"""([where, known]) => {
-    axe.configure({ rules: [{ id: "color-contrast", selector: "[data-look]" }] });
+    const rules = [{ id: "color-contrast", selector: "[data-look]" }];
+    axe.configure({ rules, noHtml: true });
     const FIELDS =
         "select, textarea, input:not([type=range], [type=radio], [type=checkbox])";
     const UNJUDGED = "mjx-assistive-mml, svg";
@@ -48,11 +49,13 @@ OF_EACH_LOOK = r"""([where, known]) => {
     }
     return keys;
 }"""
-# No preload: axe would ask for the style sheets anew, which files refuse.
+# No preload: axe would ask for the style sheets anew, which files refuse.  Of what it
+# judges it would write down the HTML; here only what is wrong is written.
 RUN = """async ([where, options]) => {
     const asked = { elementRef: true, preload: false, selectors: false };
     const { violations, passes } = await axe.run(where, { ...options, ...asked });
-    const of = (rule) => rule.nodes.map((e) => [rule.id, e.html, e.failureSummary]);
+    const html = ({ element }) => element.outerHTML.slice(0, 300);
+    const of = (rule) => rule.nodes.map((e) => [rule.id, html(e), e.failureSummary]);
     const judged = [...violations, ...passes].filter((r) => r.id === "color-contrast")
         .flatMap((rule) => rule.nodes.map((e) => Number(e.element.dataset.look)));
     return [violations.flatMap(of), judged];
