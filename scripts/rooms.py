@@ -32,6 +32,7 @@ CORE = (
 # the core, each only those before it.
 ABOVE = (
     "foreign.py",
+    "builders/_*.py",
     "learning/_*.py",
     "rivals/",
     "experiments/",
@@ -71,10 +72,11 @@ def rooms(names: tuple[str, ...] = CORE + ABOVE) -> list[Room]:
 def files(name: str) -> list[Path]:
     """Return the modules of a room."""
     if not name.endswith("/"):
-        return sorted(PACKAGE.glob(name))
+        found = sorted(PACKAGE.glob(name))
+        return [path for path in found if path.stem != "__init__"]
     found = sorted((PACKAGE / name).rglob("*.py"))
-    apart = {path for row in ABOVE if "*" in row for path in PACKAGE.glob(row)}
-    return [path for path in found if path not in apart or path.stem == "__init__"]
+    apart = {path for row in ABOVE if "*" in row for path in files(row)}
+    return [path for path in found if path not in apart]
 
 
 def lines_in(path: Path) -> int:
@@ -110,7 +112,7 @@ def table(found: list[Room]) -> str:
 def _says(name: str) -> str:
     """Return the first sentence of a room's docstring."""
     if "*" in name:
-        return "what makes these loops fast, to the same bit"
+        return "what makes this room fast, to the same bit"
     file = PACKAGE / name / "__init__.py" if name.endswith("/") else PACKAGE / name
     text = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8")))
     return text.split("\n\n")[0].replace("\n", " ").replace("``", "`")

@@ -15,7 +15,8 @@ import numpy as np
 
 from ..mdp import MDP, as_array, check_choice, check_mdp
 from ..policies import check_rho, uniform_policy
-from ..solvers import TIE, action_values, factorize, transition_matrix
+from ..solvers import TIE, action_values
+from ._refactorize import refactorize
 
 
 class Climb(NamedTuple):
@@ -82,7 +83,7 @@ def abstract_gradient(
     value, gradient, visits = 0.0, np.zeros(abstract_policy.shape), np.zeros(n_abstract)
     parts = (np.split(array, ends[:-1]) for array in (rho, start))
     for block, z, begin in zip(blocks, *parts, strict=True):
-        factors = factorize(transition_matrix(block, abstract_policy[z]), block.gamma)
+        factors = refactorize(block, abstract_policy[z])
         v = factors.solve(block.reward)
         d = factors.solve(begin, "T") * ~block.terminal
         q = np.where(block.allowed, action_values(block, v), 0.0)
@@ -161,20 +162,19 @@ def absprob_pi(
         raise ValueError(f"softness must lie in 0..1, got {softness}")
     possible = _possible(possible)
     policy = _initial(initial, possible)
-    n_abstract, n_actions = policy.shape
     history = []
     for i in progress(range(1, iterations + 1)):
         value, gradient, visits = abstract_gradient(mdp, policy, rho, start)
         history.append(value)
-        ranked = np.where(possible, gradient, -np.inf)
+        rows = np.flatnonzero(visits > 0)  # all others stay as they are
+        ranked = np.where(possible[rows], gradient[rows], -np.inf)
         most = ranked.max(axis=1, keepdims=True)
         # The first of equally good actions: rounding must not choose among them.
         best = (ranked >= most - TIE * np.abs(most)).argmax(axis=1)
-        target = possible * (softness / n_actions)
-        target[np.arange(n_abstract), best] += 1 - softness
+        target = possible[rows] * (softness / possible.shape[1])
+        target[np.arange(len(rows)), best] += 1 - softness
         target /= target.sum(axis=1, keepdims=True)
-        step = np.where(visits > 0, 1 / (1 + i), 0.0)[:, None]
-        policy = policy + step * (target - policy)
+        policy[rows] += 1 / (1 + i) * (target - policy[rows])
     history.append(abstract_gradient(mdp, policy, rho, start)[0])
     return Climb(policy, np.array(history))
 

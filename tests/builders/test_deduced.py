@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from strategies import dense_transitions, mdps
+from strategies import dense_transitions, mdps, random_policy
 
 from abstransfer import (
     MDP,
@@ -18,7 +18,9 @@ from abstransfer import (
     read_map,
     uniform_policy,
 )
+from abstransfer.builders._refactorize import refactorize
 from abstransfer.navigation import tasks_in_parts
+from abstransfer.solvers import factorize, transition_matrix
 
 GRAD = -30.27  # design 1.7: pi_AbsGrad in the source map
 ALL = np.ones((1, 2), bool)
@@ -130,6 +132,32 @@ def test_the_gradient_is_the_one_by_finite_differences_on_the_source_map(
 
     assert abs(up - down) > 1e-6
     assert (gradient * way).sum() == pytest.approx((up - down) / (2 * h), rel=1e-5)
+
+
+def equal_to_the_bit(mdp, policies):
+    """Compare what is solved with factors made again and anew, policy by policy."""
+    b = np.random.default_rng(0).normal(size=mdp.n_states)
+    for policy in policies:
+        again = refactorize(mdp, policy)
+        anew = factorize(transition_matrix(mdp, policy), mdp.gamma)
+        for way in ("N", "T"):
+            np.testing.assert_array_equal(again.solve(b, way), anew.solve(b, way))
+
+
+@given(mdps(max_states=20, masks=True))
+@settings(deadline=None)
+def test_factors_that_are_made_again_are_those_made_anew(mdp):
+    some = np.eye(mdp.n_actions)[mdp.allowed.argmax(axis=1)]  # uses fewer actions
+    draws = [random_policy(mdp, seed) for seed in range(3)]
+
+    equal_to_the_bit(mdp, [*draws[:2], some, some / 2 + draws[2] / 2])
+
+
+def test_factors_that_are_made_again_are_those_made_anew_in_the_source(source):
+    equal_to_the_bit(
+        source.mdp,
+        (start[source.rho] for start in random_starts(source.possible, 3, rng=0)),
+    )
 
 
 def test_each_step_that_is_not_at_the_goal_costs_one(source):
