@@ -206,8 +206,12 @@ def judged(mdp: MDP, policy: np.ndarray, gamma: float) -> float:
     """
     if not 0 <= gamma < 1:
         raise ValueError(f"gamma must satisfy 0 <= gamma < 1, got {gamma}")
+    return _judged(mdp, transition_matrix(mdp, policy), gamma)
+
+
+def _judged(mdp: MDP, moves, gamma: float) -> float:
     cost = np.where(mdp.terminal, 0.0, -1.0)
-    value = factorize(transition_matrix(mdp, policy), gamma).solve(cost)
+    value = factorize(moves, gamma).solve(cost)
     return float(100 * (1 - gamma) * value.mean())
 
 
@@ -221,9 +225,11 @@ def change_of_mind(
     three digits; nan if the same one is better at both ends.
     """
 
+    moves = [transition_matrix(mdp, policy) for policy in (a, b)]
+
     def lead(log_horizon):
         gamma = 1 - np.exp(-log_horizon)
-        return judged(mdp, a, gamma) - judged(mdp, b, gamma)
+        return np.subtract(*(_judged(mdp, each, gamma) for each in moves))
 
     ends = [-np.log1p(-gamma) for gamma in (low, high)]
     signs = [np.sign(lead(end)) for end in ends]
