@@ -32,6 +32,7 @@ from .tables import (
 )
 
 Ledgers = Mapping[str, tuple[Entry, ...]]  # by experiment
+SUFFIXES = (".svg", ".png")  # of pictures
 SCALES = {"ratio": (100, " %"), "steps": (1e-6, " million steps")}
 
 
@@ -218,6 +219,6 @@ def effect_text(finding) -> str:
 
 
 def _write_picture(write, name: str, picture) -> None:
-    for suffix in (".svg", ".png"):
+    for suffix in SUFFIXES:
         write(name + suffix, picture)
     write(name + ".txt", picture.alt + "\n")

@@ -143,8 +143,9 @@ def test_the_ledger_has_every_claim_under_every_convention(made):
     assert text.count("| goal, target | cost, target |") == 1 + len(CLAIMS)
 
 
-def test_each_reading_has_a_ledger_and_a_finer_grid_its_name(tmp_path):
+def test_each_reading_has_a_ledger_and_a_finer_grid_its_name(monkeypatch, tmp_path):
     """Controls beside the nine arms are left out, and what lacks arms or curves."""
+    monkeypatch.setattr(figures, "SUFFIXES", ())  # their texts and numbers will do
     goal, compass = Problem(), Problem(actions="compass")
     hint = Arm("hint", None, "hard", 0, 1e-12)
     made = {
@@ -214,14 +215,16 @@ def test_the_table_of_tau_has_every_guided_arm(made):
     ] + [*("3.5", "6")]
 
 
-def test_figures_are_the_same_bytes_each_time(made, results, tmp_path):
+def test_figures_are_the_same_bytes_each_time(made, results, monkeypatch, tmp_path):
+    monkeypatch.setattr(figures, "SUFFIXES", (".svg",))
     make_figures(results, tmp_path)
     for path in made.iterdir():
         if path.suffix != ".png":  # stores the version of matplotlib
             assert path.read_bytes() == (tmp_path / path.name).read_bytes(), path.name
 
 
-def test_a_folder_of_one_experiment_will_do(results, tmp_path):
+def test_a_folder_of_one_experiment_will_do(results, monkeypatch, tmp_path):
+    monkeypatch.setattr(figures, "SUFFIXES", (".svg",))
     written = make_figures(results / "goal", tmp_path)
 
     assert tmp_path / "figure3-goal.svg" in written
