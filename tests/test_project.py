@@ -22,6 +22,7 @@ EXTRAS = PROJECT["optional-dependencies"]
 COMES_WITH = {
     "distributed": "dask",
     "docutils": "jupyter-book",
+    "jupyter-client": "nbval",
     "nbclient": "jupyter-book",
     "nbformat": "jupyter-book",
     "pybtex": "jupyter-book",
