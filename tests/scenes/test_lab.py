@@ -42,6 +42,11 @@ SLIDERS = {  # scene: label of a slider, its trait, a value to drag to, one to p
     "Filling": ("Runs", "n", 20, 7),
 }
 SCENES = [*SLIDERS, "Studio"]
+# anywidget waits two seconds for the module of a scene, then hears Python no more.
+PATIENT = """
+const limit = AbortSignal.timeout.bind(AbortSignal);
+AbortSignal.timeout = (milliseconds) => limit(1000 * milliseconds);
+"""
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +128,7 @@ def page(lab, chromium):
         ),
         lambda route: (elsewhere.append(route.request.url), route.abort()),
     )
+    context.add_init_script(PATIENT)
     page = context.new_page()
     page.set_default_timeout(1000 * PATIENCE)
     page.on("pageerror", lambda error: problems.append(str(error)))
