@@ -1,11 +1,13 @@
 """
-How the tests run: what nbval compares of the pages, how it speaks to their kernels, and
-for how long it waits.
+How the tests run: in what order, what nbval compares of the pages, how it speaks to
+their kernels, and for how long it waits.
 
 What was loaded and collected stays to the end: Python need not look there for garbage.
 """
 
 import gc
+from itertools import chain, groupby, zip_longest
+from pathlib import Path
 from shutil import rmtree
 from tempfile import mkdtemp
 
@@ -20,6 +22,8 @@ COMPARED = {"metadata", "traceback", "name", "output_type"}
 # Seconds until a message of the kernel must be there.  nbval gives up after 5, which a
 # busy machine may take.
 PATIENCE = 1000
+
+SCENES = Path(__file__).parent / "tests" / "scenes"
 
 gc.disable()  # until all is collected
 
@@ -40,6 +44,12 @@ nbval.kernel.KernelManager = FileKernel
 
 
 def pytest_collection_modifyitems(items):
+    """Let scenes, which often wait for their browser, take turns with what computes."""
+    files = [list(tests) for _, tests in groupby(items, key=lambda item: item.path)]
+    of_scenes = [each for each in files if each[0].path.parent == SCENES]
+    others = [each for each in files if each[0].path.parent != SCENES]
+    turns = zip_longest(of_scenes, *(others[i::4] for i in range(4)), fillvalue=())
+    items[:] = chain.from_iterable(chain.from_iterable(turns))
     for item in items:
         if isinstance(item, IPyNbCell):
             item.output_timeout = PATIENCE
