@@ -47,6 +47,17 @@ PATIENT = """
 const limit = AbortSignal.timeout.bind(AbortSignal);
 AbortSignal.timeout = (milliseconds) => limit(1000 * milliseconds);
 """
+# Moves a slider step by step; returns what it was set to meanwhile.
+DRAG = """(input, end) => new Promise((tell) => {
+    const others = [];
+    let i = 0;
+    const turn = setInterval(() => {
+        if (i && input.valueAsNumber !== i) others.push([i, input.valueAsNumber]);
+        if (i === end) return clearInterval(turn), tell(others);
+        input.value = ++i;
+        input.dispatchEvent(new Event("input"));
+    }, 30);
+})"""
 
 
 @pytest.fixture(scope="module")
@@ -204,6 +215,15 @@ def test_the_browser_and_python_share_the_state_of_a_scene(page, kernel, name):
 
     run(kernel, f"{name}.{trait} = {pushed}")
     expect(slider).to_have_value(str(pushed))
+
+
+def test_python_does_not_set_back_a_slider_that_moves_on(page, kernel):
+    """It repeats each value that it hears, when the hand may be elsewhere."""
+    scene = scene_of(page, SCENES.index("Microscope"))
+    slider = scene.get_by_role("slider", name="Step")
+
+    assert slider.evaluate(DRAG, 60) == []
+    wait_until(page, kernel, "Microscope.t == 60")
 
 
 def test_a_building_that_was_drawn_in_the_browser_is_a_map_in_python(page, kernel):

@@ -293,19 +293,24 @@ function renderer(name, spec) {
     el.append(host);
     const options = Object.fromEntries(names.map((each) => [each, model.get(each)]));
     let timer = null;
+    const unsent = new Set(); // what Python repeats of these is older
     const send = () => {
       timer = null;
+      unsent.clear();
       model.save_changes();
     };
     const mounted = mount(host, name, spec, options, {
       url: false,
       onChange(changes) {
-        for (const [each, value] of Object.entries(changes)) model.set(each, value);
+        for (const [each, value] of Object.entries(changes)) {
+          unsent.add(each);
+          model.set(each, value);
+        }
         timer ??= setTimeout(send, 100);
       },
     });
     const hear = names.map((each) => {
-      const tell = () => mounted.set({ [each]: model.get(each) });
+      const tell = () => unsent.has(each) || mounted.set({ [each]: model.get(each) });
       model.on(`change:${each}`, tell);
       return () => model.off(`change:${each}`, tell);
     });
