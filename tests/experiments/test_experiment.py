@@ -129,7 +129,7 @@ def test_a_dask_cluster_gives_the_same(expected):
         from distributed import Client, LocalCluster
     except ImportError:
         unavailable("distributed is not installed; pip install abstransfer[dask]")
-    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0"}
     with LocalCluster(**options) as cluster, Client(cluster) as client:
         found = run(executor=client.get_executor())
 
