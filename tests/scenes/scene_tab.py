@@ -19,7 +19,13 @@ PAGE = """<!doctype html>
 # Nobody looks, so nothing is painted: all else is as it is for a reader.
 UNPAINTED = "body { opacity: 0; }"
 PROBE = Path(__file__).parent / "js" / "probe.js"
-FRAMES = "() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
+# Two pictures, and more while a scene works at what it is to show first.
+SETTLED = """async () => {
+    const isAtWork = ({ textContent }) => textContent === "Sweeping \u2026";
+    do {
+        await new Promise((f) => requestAnimationFrame(() => requestAnimationFrame(f)));
+    } while ([...document.querySelectorAll(".ab-body > p")].some(isAtWork));
+}"""
 # A clock that the test turns, for what plays: `pass(700)`.
 CLOCK = """() => {
     const beats = new Map();
@@ -122,7 +128,7 @@ class SceneTab:
         return self.visit.is_idle(*seconds)
 
     def settle(self):
-        self.page.evaluate(FRAMES)
+        self.page.evaluate(SETTLED)
         return self
 
     def go(self, hash_):

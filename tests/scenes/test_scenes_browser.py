@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 from legible import faults, pale
-from scene_tab import CLOCK, FRAMES, bare, probe
+from scene_tab import CLOCK, SETTLED, bare, probe
 
 from abstransfer import maps, navigation, scenes
 from abstransfer.learning import q_learning
@@ -21,7 +21,7 @@ class Microscope:
         self.root = self.page.locator(".abstransfer-scene").nth(which)
 
     def settle(self):
-        self.page.evaluate(FRAMES)
+        self.page.evaluate(SETTLED)
         return self
 
     def click(self, name):
@@ -438,7 +438,7 @@ def test_curves_grow_and_leaving_stops_the_worker(at_scenes):
     tab.page.evaluate(probe())
     tab.page.evaluate(LEARN)
     tab.page.wait_for_function("points.length > 3")
-    tab.page.evaluate(FRAMES)
+    tab.page.evaluate(SETTLED)
     assert tab.page.locator(".ab-chart .ab-line").count() == 1
     assert tab.page.evaluate("mounted.scene.isLearning")
     assert len(tab.page.workers) == 1

@@ -193,7 +193,6 @@ defineScene("ripple", {
         }”. ${outcome}`;
     }
     function showChart() {
-      chart.node.hidden = !state.bet;
       const { errors, far } = wave;
       const points = errors.slice(0, shown() + 1).map((
         error,
@@ -252,6 +251,7 @@ defineScene("ripple", {
       if (["map", "task", "success"].some((name) => changed.has(name))) begin(changed);
       show();
       arrows.hidden = !state.ties;
+      chart.node.hidden = !state.bet;
       if (!wave) {
         words.textContent = "Sweeping …";
         return;
