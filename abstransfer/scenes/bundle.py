@@ -48,9 +48,9 @@ def answers() -> Path:
 
 
 def sources() -> list[Path]:
-    """Return all scripts that bundles are made of."""
-    found = [*FOLDER.glob("**/*.js"), *answers().parent.glob("*.js")]
-    return sorted(path for path in found if path.parent != BUNDLES)
+    """Return all scripts that bundles are made of: no bundle, be it half made."""
+    ours = [*FOLDER.glob("*.js"), *FOLDER.glob("[a-z]*/*.js")]
+    return sorted([*ours, *answers().parent.glob("*.js")])
 
 
 def digest() -> str:

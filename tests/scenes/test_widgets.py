@@ -102,6 +102,9 @@ def test_a_changed_source_is_bundled_anew_once(monkeypatch, tmp_path):
 
     assert bundle.scenes() == ["one"]
     assert bundle.build()
+    halfway = tmp_path / "_bundles" / "of_another_process"
+    halfway.mkdir()
+    (halfway / "one.js").write_text("", encoding="utf-8")
     assert not bundle.build()
     source.write_text("console.log(2 + python.n);", encoding="utf-8")
     assert not bundle.is_fresh()
